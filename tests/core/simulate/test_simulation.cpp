@@ -273,7 +273,7 @@ AlgorithmInfo noting_entry(PassSettings& seen) {
 const Softness other_softness{
     {0.4, 1.7, 0.3, 0.2, 3, -0.5}, {}, EnergyKind::axial, RegionAxes(AxesKind::given, {0, 0, 0.3})};
 const ElasticOptions other_elastic{{2.5, 0.2}, {3, 5, 6}, 17, {StrainLaw::Kind::gent, 4, 0.25}, 0.03};
-const commands::SetRelaxation other_relaxation{true, 0.5, RelaxationScheme::link};
+const commands::SetRelaxation other_relaxation{true, 0.5, RelaxationScheme::link, false, true};
 
 /// True if every setting differs from its default, so that one that is lost is seen. A new member of these structures
 /// does not compile here until it is looked at.
@@ -281,7 +281,7 @@ bool all_are_other() {
   const auto& [material, lattice, iterations, law, thickness] = other_elastic;
   const auto& [young, poisson] = material;
   const auto& [kind, gent_limit, fung_exponent] = law;
-  const auto& [on, step, scheme, anew] = other_relaxation;
+  const auto& [on, step, scheme, anew, local] = other_relaxation;
   const auto& [global, links, energy, frame] = other_softness;
   const ElasticOptions elastic;
   const commands::SetRelaxation relaxation;
@@ -293,7 +293,7 @@ bool all_are_other() {
          lattice[2] != elastic.lattice[2] && iterations != elastic.iterations && kind != elastic.law.kind &&
          gent_limit != elastic.law.gent_limit && fung_exponent != elastic.law.fung_exponent &&
          thickness != elastic.thickness && on != relaxation.on && step != relaxation.step &&
-         scheme != relaxation.scheme && !anew;  // which is of the command, not a setting
+         scheme != relaxation.scheme && local != relaxation.local && !anew;  // which is of the command, not a setting
 }
 
 SplitPointer split_of_two_triangles() {
@@ -316,16 +316,17 @@ std::string lost_setting(Simulation& simulation, const PassSettings& seen, const
     can_be_cancelled = true;
   }
   job.cancel(false);
-  return simulation.statistics().algorithm != noting_algorithm           ? "algorithm"
-         : seen.precision != Precision::single_precision                 ? "precision"
-         : seen.threads != 3                                             ? "threads"
-         : seen.trace != &trace                                          ? "trace"
-         : !can_be_cancelled                                             ? "progress"
-         : simulation.softness() != other_softness                       ? "softness"
-         : simulation.elastic() != other_elastic                         ? "elastic options"
-         : simulation.relaxation() != other_relaxation                   ? "relaxation"
-         : simulation.deformer().relaxation() != other_relaxation.scheme ? "scheme of the solver"
-                                                                         : "";
+  return simulation.statistics().algorithm != noting_algorithm               ? "algorithm"
+         : seen.precision != Precision::single_precision                     ? "precision"
+         : seen.threads != 3                                                 ? "threads"
+         : seen.trace != &trace                                              ? "trace"
+         : !can_be_cancelled                                                 ? "progress"
+         : simulation.softness() != other_softness                           ? "softness"
+         : simulation.elastic() != other_elastic                             ? "elastic options"
+         : simulation.relaxation() != other_relaxation                       ? "relaxation"
+         : simulation.deformer().relaxation() != other_relaxation.scheme     ? "scheme of the solver"
+         : simulation.deformer().relaxes_locally() != other_relaxation.local ? "local relaxation of the solver"
+                                                                             : "";
 }
 
 }  // namespace
