@@ -49,6 +49,8 @@ class Build:
         self.known = root / "build/mutants/refused.json"  # the faults that earlier builds refused
         refused = set(json.loads(self.known.read_text())) if self.known.exists() else set()
         self.faults = {number: fault for number, fault in faults.items() if key(fault) not in refused}
+        # Read once: the source may be edited while the copy is built again and again.
+        self.sources = {name: (root / name).read_bytes() for name in source_files(root)}
         cache = subprocess.run(["ccache", "-k", "cache_dir"], capture_output=True, text=True).stdout.strip()
         self.environment = {"CCACHE_DIR": cache, **os.environ, "CCACHE_BASEDIR": str(self.copy)}
 
@@ -56,21 +58,20 @@ class Build:
         faults = {number: fault for number, fault in self.faults.items() if fault.path == name}
         file, old, new = KEPT_VARIABLES
         if not faults and name != file:
-            return (self.root / name).read_bytes()
-        text = (self.root / name).read_text()
+            return self.sources[name]
+        text = self.sources[name].decode()
         text = with_faults(text, faults, self.copy / HEADER) if faults else text
         return (text.replace(old, new) if name == file else text).encode()
 
     def write(self):
         """Updates the copy. Unchanged files keep their time, so that they are not built again."""
-        names = set(source_files(self.root))
-        for name in names:
+        for name in self.sources:
             target, content = self.copy / name, self.content(name)
             if not target.exists() or target.read_bytes() != content:
                 target.parent.mkdir(parents=True, exist_ok=True)
                 target.write_bytes(content)
                 shutil.copymode(self.root / name, target)
-        for old in set(source_files(self.copy)) - names:
+        for old in set(source_files(self.copy)) - set(self.sources):
             (self.copy / old).unlink()
 
     def configure(self):
