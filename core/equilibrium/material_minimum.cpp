@@ -176,9 +176,7 @@ bool MaterialMinimum<D, Steps>::step(Vectors& at, int threads, const Progress& p
   harden(at, shared);
   const auto value_at = [&](const Vectors& x, Vectors& force) { return evaluate(x, force, shared); };
   const bool lowered = steps_.step(value_at, energy_, preconditioner_, regions_, at, value_, force_, shared, progress);
-  constexpr double hidden = 1e-10;  // of the energy: what rounding hides of a slope
-  const double distance = steps_.distance();
-  distance_ = lowered || distance * distance > hidden * value_ ? distance : 0;
+  distance_ = lowered ? steps_.distance() : 0;
   is_material_outdated_ = !lowered;  // the last try was elsewhere
   return steps_.has_prepared();
 }

@@ -21,7 +21,7 @@ class QuasiNewton {
 
   /// Runs a step from `x`, with the energy and its negative gradient there, which are updated. `evaluate(x, force)`
   /// returns the energy. Returns false if no step lowers the energy, also without what was learned: then rounding hides
-  /// the way down, or the preconditioner is a poor one.
+  /// the way down.
   template <class Evaluate, class Preconditioner>
   bool step(Evaluate evaluate, Preconditioner& preconditioner, Vectors& x, double& energy, Vectors& force,
             const SharedLoop& shared = {}) {
@@ -29,8 +29,7 @@ class QuasiNewton {
            try_step(evaluate, preconditioner, x, energy, force, shared);
   }
 
-  /// Estimates the distance from the minimum after the last step, or where none was found: √(twice the energy of the
-  /// distance).
+  /// Estimates the distance from the minimum after the last step: √(twice the energy of the distance).
   double distance() const { return std::sqrt(slope_) * shrunk_; }
 
  private:
@@ -49,7 +48,6 @@ class QuasiNewton {
                 const SharedLoop& shared) {
     const double slope = find_direction(preconditioner, force, shared);
     slope_ = std::max(0.0, slope);
-    shrunk_ = 1;
     if (!(slope > 0)) {
       forget();
       return false;

@@ -2,7 +2,6 @@
 
 #include "core/threads.h"
 #include "equilibrium/link_energy.h"
-#include "equilibrium/quasi_newton.h"
 #include "measure/shape_measures.h"
 #include "measure/violation.h"
 #include "mesh/error.h"
@@ -22,7 +21,6 @@ class SettlingTest : public QObject {
   void after_a_drag_it_settles_and_sleeps();
   void a_drag_while_it_settles_is_followed();
   void what_comes_no_closer_is_not_settled();
-  void a_step_that_finds_no_way_says_how_far_it_is();
   void another_material_wakes_it();
   void pins_that_contradict_each_other_leave_a_remark();
   void iterations_at_once_end_at_the_residual();
@@ -171,34 +169,6 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
 
 /// The two links of a chain contradict each other, so sweeps over links never end. It tries once more, then it stops
 /// and says so.
-/// With a preconditioner that leads a million times too far, and without one, each from 1 toward 0.
-void SettlingTest::a_step_that_finds_no_way_says_how_far_it_is() {
-  struct Longer {
-    double factor;
-    void apply(const QuasiNewton<1>::Vectors& force, QuasiNewton<1>::Vectors& step,
-               const SharedLoop& /*shared*/) const {
-      step = force;
-      step[0] *= factor;
-    }
-  };
-  const auto energy_at = [](const QuasiNewton<1>::Vectors& x, QuasiNewton<1>::Vectors& force) {
-    force = {-x[0]};
-    return x[0][0] * x[0][0] / 2;
-  };
-  for (const double factor : {1e6, 1.0}) {
-    QuasiNewton<1> newton;
-    QuasiNewton<1>::Vectors x(1), force(1);
-    x[0][0] = 1;
-    force[0][0] = -1;
-    double energy = 0.5;
-    Longer preconditioner{factor};
-    const bool lowered = newton.step(energy_at, preconditioner, x, energy, force);
-    QCOMPARE(lowered, factor == 1);
-    QCOMPARE(x[0][0], lowered ? 0.0 : 1.0);
-    QCOMPARE(newton.distance(), lowered ? 0.0 : 1000.0);
-  }
-}
-
 void SettlingTest::what_comes_no_closer_is_not_settled() {
   Simulation chain(make_mesh(MeshKind::line, {3, 1, 1}), Algorithm::natural_queue, Precision::double_precision);
   carry_out(chain, commands::Pin{{0}});
