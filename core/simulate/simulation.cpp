@@ -206,6 +206,9 @@ void Simulation::begin_relaxation(bool awake) {
 
 RelaxationResult Simulation::relax_slice(double step) {
   return take_relaxed([&] {
+    if (away_.empty() && !info(deformer_.relaxation()).sweeps) {  // at rest: nothing need be prepared to know that
+      return RelaxationResult{.visited = 0, .sweep_ended = true, .largest_step = 0, .residual = 0.0};
+    }
     const RelaxationResult slice = deformer_.relax_slice(step, Deformer::elements_per_slice, grabbed());
     mark(deformer_.relaxed());
     return slice;

@@ -342,8 +342,10 @@ QStringList Panel::states(const Statistics& statistics) const {
     states << QStringLiteral("%L1 pinned").arg(document_.pins().size());
   }
   if (statistics.estimate) {
-    states
-        << QStringLiteral("about %1 % from the full equilibrium").arg(shownNumber(100 * *statistics.estimate, 'g', 1));
+    const double percent = 100 * *statistics.estimate;
+    states << (percent < 100 ? QStringLiteral("about %1 % from the full equilibrium")
+                                   .arg(shownNumber(percent, 'g', percent < 9.5 ? 1 : 2))
+                             : QStringLiteral("far from the full equilibrium"));
   } else if (statistics.relaxing) {
     states << (statistics.residual ? QStringLiteral("settling, iteration %L1") : QStringLiteral("relaxing, sweep %L1"))
                   .arg(statistics.sweeps);

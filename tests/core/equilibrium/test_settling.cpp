@@ -20,6 +20,7 @@ class SettlingTest : public QObject {
   void after_a_drag_it_settles_and_sleeps_data();
   void after_a_drag_it_settles_and_sleeps();
   void a_drag_while_it_settles_is_followed();
+  void at_rest_nothing_is_prepared();
   void what_comes_no_closer_is_not_settled();
   void another_material_wakes_it();
   void pins_that_contradict_each_other_leave_a_remark();
@@ -165,6 +166,18 @@ void SettlingTest::after_a_drag_it_settles_and_sleeps() {
   const auto asleep = positions_of(simulation);
   QVERIFY(!simulation.continue_relaxation() && !simulation.statistics().relaxing);
   QVERIFY(same_bits(positions_of(simulation), asleep));
+}
+
+void SettlingTest::at_rest_nothing_is_prepared() {
+  Simulation simulation = held_grid(Algorithm::natural_queue);
+  carry_out(simulation, commands::Cut{{3}});
+  simulation.continue_relaxation();  // the cut woke it
+  QVERIFY(!simulation.continue_relaxation());
+  QCOMPARE(simulation.statistics().residual, std::optional(0.0));
+  QVERIFY(!simulation.certificate());
+  drag_by(simulation, handle, Point(0.5, 0.3, 0));
+  QVERIFY(simulation.continue_relaxation());
+  QVERIFY(simulation.certificate());
 }
 
 /// The two links of a chain contradict each other, so sweeps over links never end. It tries once more, then it stops
