@@ -215,11 +215,10 @@ void add_relaxation(MoverClass& deformer) {
            "The handle and the pins stay, and each element stays in the valid regions of its neighbours. `step` is\n"
            "the share of the way that an element moves per sweep: above 0, to 1. `scheme` is `mean`, `link` or\n"
            "`equilibrium`, which runs iterations instead, for all elements, until the distance from the equilibrium\n"
-           "is at most `until`. With `local`, after a move of a large object with open regions, they are fine only "
-           "near\n"
-           "the handle and cuts. Returns the number of sweeps that ran; 0 for methods of elasticity, whose answers\n"
-           "are equilibria. Raises Error for a number out of its range; and Cancelled, which keeps the positions\n"
-           "that were reached.")
+           "is at most `until`. With `local`, after a move of a large object with open regions, they are fine only\n"
+           "near the handle and cuts. Returns the number of sweeps that ran; 0 for methods of elasticity, whose\n"
+           "answers are equilibria. Raises Error for a number out of its range; and Cancelled, which keeps the\n"
+           "positions that were reached.")
       .def(
           "certificate",
           [](const Used<Mover>& object) {

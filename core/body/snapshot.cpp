@@ -234,10 +234,10 @@ Snapshot SplitPositions::snapshot() {
 /// Finds the old links around new ones that lie inside faces or cells.
 class LinksAround {
  public:
-  LinksAround(const SplitLinks& links, const SplitEdit& edit)
+  explicit LinksAround(const SplitLinks& links)
       : mesh_(*links.before), after_(*links.after), carriers_(mesh_.element_count()) {
-    carriers_.append(edit.elements);
-    for (const CellId cell : edit.removed_cells) {
+    carriers_.append(links.edit.elements);
+    for (const CellId cell : links.edit.removed_cells) {
       if (cell >= mesh_.tetrahedra.size()) {
         const auto& corners = mesh_.hexahedra[cell - mesh_.tetrahedra.size()];
         for_each_pair(corners, [&](ElementId a, ElementId b) { hexahedron_of_.try_emplace(edge_key(a, b), &corners); });
@@ -296,13 +296,13 @@ LinkSoftness mean(const Softness& softness, const std::vector<LinkId>& links) {
 
 /// A link on an old one takes its softness. A link inside a face or a cell has the mean of the links at its ends, or of
 /// those around it.
-std::shared_ptr<const Softness> softness_after(const Split& split, const std::shared_ptr<const Softness>& softness) {
+std::shared_ptr<const Softness> softness_after(const SplitLinks& links,
+                                               const std::shared_ptr<const Softness>& softness) {
   if (softness->links.empty()) {
     return softness;
   }
   Softness result{softness->global, {}, softness->energy, softness->axes};
-  const SplitLinks links(split);
-  const LinksAround around(links, split.edit());
+  const LinksAround around(links);
   for (LinkId link = 0; link < links.parents.size(); ++link) {
     if (const LinkId on = links.parents[link]; on != SplitLinks::none) {
       if (softness->links.contains(on)) {
@@ -333,8 +333,12 @@ ObjectState object_after(const Split& split, const ObjectState& object) {
 }
 
 ObjectState meshless_after(const Split& split, const ObjectState& object) {
-  return {nullptr, cuts_after(split, object.cuts), pins_after(split, object.pins),
-          softness_after(split, object.softness)};
+  std::vector<ElementId> pins = pins_after(split, object.pins);
+  if (object.cuts.empty() && object.softness->links.empty()) {
+    return {nullptr, {}, std::move(pins), object.softness};
+  }
+  const SplitLinks links(split);
+  return {nullptr, cuts_after(links, object.cuts), std::move(pins), softness_after(links, object.softness)};
 }
 
 Snapshot positions_after(const Split& split, const Snapshot& positions, Precision precision) {

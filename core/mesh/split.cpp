@@ -314,8 +314,8 @@ class Origins {
  public:
   explicit Origins(SplitLinks& links) : links_(links), old_(links.before->element_count()) {}
 
-  void find(std::span<const SplitPoint> appended) {
-    for (const SplitPoint& point : appended) {
+  void find() {
+    for (const SplitPoint& point : links_.edit.elements) {
       const LinkId on = point.is_copy() || point.shares[1] != 0 ? SplitLinks::none : between(point.of[0], point.of[1]);
       const ElementId self = old_ + static_cast<ElementId>(original_.size());
       original_.push_back(point.is_copy() ? original(point.of[0]) : self);
@@ -361,11 +361,11 @@ class Origins {
 /// Finds the links that are cut after a split.
 class CutsAfter {
  public:
-  CutsAfter(const Split& split, std::span<const LinkId> cuts)
-      : edit_(split.edit()),
-        links_(split),
-        before_(*links_.before),
-        after_(*links_.after),
+  CutsAfter(const SplitLinks& links, std::span<const LinkId> cuts)
+      : edit_(links.edit),
+        links_(links),
+        before_(*links.before),
+        after_(*links.after),
         cuts_(cuts),
         is_cut_(after_.link_count()),
         carriers_(before_.element_count()) {
@@ -414,7 +414,7 @@ class CutsAfter {
   void keep_stubs();
 
   const SplitEdit& edit_;
-  const SplitLinks links_;
+  const SplitLinks& links_;
   const Mesh &before_, &after_;
   std::span<const LinkId> cuts_;
   std::vector<bool> is_cut_;  // of each link after the split
@@ -581,8 +581,8 @@ MeshPointer Split::make_after(const MeshPointer& before) const {
   return mesh;
 }
 
-SplitLinks::SplitLinks(const Split& split) : before(split.before()), after(split.after()) {
-  Origins(*this).find(split.edit().elements);
+SplitLinks::SplitLinks(const Split& split) : edit(split.edit()), before(split.before()), after(split.after()) {
+  Origins(*this).find();
 }
 
 std::uint64_t mesh_size(const Mesh& mesh) {
@@ -624,8 +624,12 @@ std::vector<LinkId> links_without_faces(const Mesh& mesh, std::span<const LinkId
   return result;
 }
 
+std::vector<LinkId> cuts_after(const SplitLinks& links, std::span<const LinkId> cuts) {
+  return cuts.empty() ? std::vector<LinkId>() : CutsAfter(links, cuts).links();
+}
+
 std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts) {
-  return cuts.empty() ? std::vector<LinkId>() : CutsAfter(split, cuts).links();
+  return cuts.empty() ? std::vector<LinkId>() : cuts_after(SplitLinks(split), cuts);
 }
 
 std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins) {

@@ -122,8 +122,10 @@ class Split : public std::enable_shared_from_this<Split> {
 struct SplitLinks {
   static constexpr LinkId none = std::numeric_limits<LinkId>::max();
 
+  /// `split` must live on.
   explicit SplitLinks(const Split& split);
 
+  const SplitEdit& edit;
   MeshPointer before, after;
   /// For each link of the mesh after the split: the link before it on which it lies; none if it is inside a face
   /// or a cell.
@@ -158,6 +160,7 @@ SplitPointer make_split(const MeshPointer& mesh, SplitEdit edit);
 
 /// Returns the links that are cut after the split: those on cut links, and new ones inside cells and faces that are
 /// gone, so that no piece of these comes back. Elements that would lose all links keep the first one. Ascending.
+std::vector<LinkId> cuts_after(const SplitLinks& links, std::span<const LinkId> cuts);
 std::vector<LinkId> cuts_after(const Split& split, std::span<const LinkId> cuts);
 /// Returns the pins after the split: also the new elements all of whose elements are pinned. Ascending.
 std::vector<ElementId> pins_after(const Split& split, std::span<const ElementId> pins);
