@@ -17,10 +17,6 @@
 namespace chainmail {
 namespace {
 
-// A cell is flat if its volume is below this share of its longest edge to the power n: its shape functions have then
-// lost half the digits of a double.
-constexpr double flat_below = 1e-8;
-
 constexpr std::array<CellEdge, 1> link_edges{{{0, 1}}};
 constexpr std::array<CellEdge, 3> triangle_edges{{{0, 1}, {1, 2}, {2, 0}}};
 constexpr std::array<CellEdge, 4> square_edges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
@@ -140,21 +136,13 @@ class Builder {
   }
 
   void add_cubes() {
-    const auto [width, height, depth] = mesh_.lattice->size;
-    const ElementId row = width, slice = width * height;
-    for (std::uint32_t z = 0; z + 1 < depth; ++z) {
-      for (std::uint32_t y = 0; y + 1 < height; ++y) {
-        for (std::uint32_t x = 0; x + 1 < width; ++x) {
-          const ElementId a = z * slice + y * row + x, e = a + slice;
-          const std::array<ElementId, 8> cube{a, a + 1, a + row + 1, a + row, e, e + 1, e + row + 1, e + row};
-          if (std::ranges::all_of(hexahedron_edges, [&](const CellEdge& edge) {
-                return has_link(mesh_, cuts_, cube[edge[0]], cube[edge[1]]);
-              })) {
-            add_hexahedron(cube);
-          }
-        }
+    for_each_cube(*mesh_.lattice, [&](const std::array<ElementId, 8>& cube) {
+      if (std::ranges::all_of(hexahedron_edges, [&](const CellEdge& edge) {
+            return has_link(mesh_, cuts_, cube[edge[0]], cube[edge[1]]);
+          })) {
+        add_hexahedron(cube);
       }
-    }
+    });
   }
 
   double rest(ElementId element, int axis) const {
@@ -189,12 +177,13 @@ class Builder {
     }
     const FixedMatrix<double, 3, 3> adjoint = adjugate(edges);
     const double product = determinant(edges, adjoint);
-    const double volume = product / (n == 3 ? 6 : n), scale = std::pow(longest, n);
-    if (cells_ != nullptr && !(std::abs(volume) > flat_below * scale)) {
+    const double volume = product / (n == 3 ? 6 : n);
+    const bool is_without_shape = is_flat(volume, longest, n);
+    if (cells_ != nullptr && is_without_shape) {
       simplices_.volumes.push_back(0);
       return;
     }
-    check_shape(corners, volume, scale);
+    check_shape(corners, volume, is_without_shape);
     double* gradients = simplices_.gradients.data() + simplex * static_cast<std::size_t>(n * (n + 1));
     for (int k = 0; k < n; ++k) {
       gradients[k] = 0;
@@ -207,9 +196,9 @@ class Builder {
   }
 
   /// The cells of a file may have either orientation, but all must have the same.
-  void check_shape(std::span<const ElementId> corners, double volume, double scale) {
+  void check_shape(std::span<const ElementId> corners, double volume, bool is_without_shape) {
     const std::string where = "the cell of elements " + names(corners);
-    if (!(std::abs(volume) > flat_below * scale)) {
+    if (is_without_shape) {
       throw Error(where, "it is flat, so it cannot resist", "remove it, or mesh the object again");
     }
     const bool has_way_round = simplices_.dimension == 3 && cells_ == nullptr;  // a sheet is the same from behind
@@ -261,6 +250,11 @@ void sort_simplices(std::vector<ElementId>& corners, std::size_t width) {
   for (std::size_t s = 0; s < simplices.size(); ++s) {
     std::copy_n(simplices[s].corners.begin(), width, corners.begin() + static_cast<std::ptrdiff_t>(s * width));
   }
+}
+
+bool is_flat(double volume, double longest, int dimension) {
+  constexpr double least = 1e-8;
+  return !(std::abs(volume) > least * std::pow(longest, dimension));
 }
 
 bool has_solid_cells(const Mesh& mesh) {

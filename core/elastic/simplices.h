@@ -61,6 +61,9 @@ struct CellSimplices {
     return std::span(links).subspan(first_link[cell], first_link[cell + 1] - first_link[cell]);
   }
 };
+/// Returns true if a simplex of this dimension is flat, from its volume and the longest edge at its first corner: its
+/// shape functions have then lost half the digits of a double.
+bool is_flat(double volume, double longest, int dimension);
 /// Returns true if a mesh has cells of its space's dimension: faces or squares in a plane, cells or cubes in space.
 bool has_solid_cells(const Mesh& mesh);
 /// The same division as build_simplices, in the order of the mesh. Flat cells and any orientation are accepted. Throws

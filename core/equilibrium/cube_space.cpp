@@ -55,13 +55,13 @@ std::uint32_t CubeSpace::Level::find(const Place& at) const {
   return cube_at[index_of(at, size)];
 }
 
-CubeSpace::CubeSpace(MeshPointer mesh, const Cuts& cuts, const Progress& progress) : mesh_(std::move(mesh)) {
+CubeSpace::CubeSpace(MeshPointer mesh, const Progress& progress) : mesh_(std::move(mesh)) {
   find_tetrahedra();
   find_unit(progress.part(0, 0.1));
   sort_tetrahedra(progress.part(0.1, 0.3));
   std::vector<Pair> pairs;
   {
-    const std::vector<std::uint32_t> part_of = find_parts(cuts, progress.part(0.3, 0.6));
+    const std::vector<std::uint32_t> part_of = find_parts(progress.part(0.3, 0.6));
     pairs = find_pairs(part_of);
     find_volumes(part_of, progress.part(0.6, 0.9));
   }
@@ -82,16 +82,7 @@ std::span<const CubeSpace::Tetrahedron> CubeSpace::tetrahedra() const {
 void CubeSpace::find_tetrahedra() {
   const auto& given = mesh_->hexahedra;
   if (!mesh_->has_cells() && mesh_->lattice) {
-    const auto [width, height, depth] = mesh_->lattice->size;
-    const ElementId row = width, slice = width * height;
-    for (std::uint32_t z = 0; z + 1 < depth; ++z) {
-      for (std::uint32_t y = 0; y + 1 < height; ++y) {
-        for (std::uint32_t x = 0; x + 1 < width; ++x) {
-          const ElementId a = z * slice + y * row + x, e = a + slice;
-          own_hexahedra_.push_back({a, a + 1, a + row + 1, a + row, e, e + 1, e + row + 1, e + row});
-        }
-      }
-    }
+    for_each_cube(*mesh_->lattice, [this](const auto& cube) { own_hexahedra_.push_back(cube); });
   }
   const auto& hexahedra = own_hexahedra_.empty() ? given : own_hexahedra_;
   if (!hexahedra.empty()) {
@@ -114,7 +105,8 @@ double CubeSpace::volume_of(const std::array<Point, 4>& c) {
   return std::abs((c[1] - c[0]).cross(c[2] - c[0]).dot(c[3] - c[0])) / 6;
 }
 
-/// The unit is the spacing of elements, or a quarter of the longest cell.
+/// The unit is the spacing of elements, or a quarter of the longest cell; more where cells are so far apart that there
+/// would be more places than cells.
 void CubeSpace::find_unit(const Progress& progress) {
   Point low = Point::Constant(INFINITY), high = -low;
   double longest = 0, volume = 0;
@@ -131,6 +123,13 @@ void CubeSpace::find_unit(const Progress& progress) {
   }
   const double spacing = mesh_->lattice ? mesh_->lattice->spacing : std::cbrt(volume / mesh_->element_count());
   unit_ = std::max(spacing, longest / 4);
+  if (!(unit_ > 0 && std::isfinite(unit_))) {  // all elements at one point
+    unit_ = 1;
+  }
+  const auto places = [&](int k) { return std::max(1.0, std::ceil((high[k] - low[k]) / unit_ / 2 - 1e-9)); };
+  while (places(0) * places(1) * places(2) > double(tetrahedra.size())) {
+    unit_ *= 2;
+  }
   per_unit_ = 1 / unit_;
   origin_ = low;
   levels_.resize(2);
@@ -138,14 +137,14 @@ void CubeSpace::find_unit(const Progress& progress) {
   first.width = 2;
   extent_ = (high - low).maxCoeff() / unit_;
   for (int k = 0; k < 3; ++k) {
-    first.size[std::size_t(k)] = std::max(1, int(std::ceil((high[k] - low[k]) / unit_ / first.width - 1e-9)));
+    first.size[std::size_t(k)] = int(places(k));
   }
 }
 
 CubeSpace::Place CubeSpace::place_of(const Point& point) const {
   Place place;
   for (std::size_t k = 0; k < 3; ++k) {
-    place[k] = std::clamp(int(std::floor(point[Eigen::Index(k)] / 2 + 1e-12)), 0, levels_[1].size[k] - 1);
+    place[k] = int(std::clamp(std::floor(point[Eigen::Index(k)] / 2 + 1e-12), 0.0, levels_[1].size[k] - 1.0));
   }
   return place;
 }
@@ -190,8 +189,8 @@ void CubeSpace::sort_tetrahedra(const Progress& progress) {
   }
 }
 
-/// Finds what is connected in each cube. Returns the part of each tetrahedron, in sorted order; none if it is gone.
-std::vector<std::uint32_t> CubeSpace::find_parts(const Cuts& cuts, const Progress& progress) {
+/// Finds what is connected in each cube. Returns the part of each tetrahedron, in sorted order.
+std::vector<std::uint32_t> CubeSpace::find_parts(const Progress& progress) {
   Level& level = levels_[1];
   std::vector<std::uint32_t> part_of(sorted_tetrahedra_.size(), none);
   std::vector<std::uint32_t> seen(mesh_->element_count(), none);  // the last tetrahedron with this element
@@ -200,13 +199,7 @@ std::vector<std::uint32_t> CubeSpace::find_parts(const Cuts& cuts, const Progres
     Cube& cube = level.cubes[c];
     const std::uint32_t begin = cube.tetrahedron, end = level.cubes[c + 1].tetrahedron;
     DisjointSets sets(end - begin);
-    const auto is_whole_one = [&](std::uint32_t i) {
-      return cuts.count() == 0 || !is_gone(sorted_tetrahedra_[i], cuts);
-    };
     for (std::uint32_t i = begin; i < end; ++i) {
-      if (!is_whole_one(i)) {
-        continue;
-      }
       for (const ElementId e : tetrahedra()[sorted_tetrahedra_[i]]) {
         if (seen[e] != none && seen[e] >= begin) {
           sets.unite(seen[e] - begin, i - begin);
@@ -218,7 +211,7 @@ std::vector<std::uint32_t> CubeSpace::find_parts(const Cuts& cuts, const Progres
     for (std::uint32_t i = begin; i < end; ++i) {
       if (const std::size_t root = sets.of(i - begin) + begin; root != i) {
         part_of[i] = part_of[root];
-      } else if (is_whole_one(i)) {
+      } else {
         part_of[i] = std::uint32_t(level.parts.size());
         level.parts.push_back({.cube = c});
       }
@@ -237,9 +230,6 @@ std::vector<CubeSpace::Pair> CubeSpace::find_pairs(const std::vector<std::uint32
   const auto is_alone = [&](std::uint32_t cube) { return level.cubes[cube + 1].part == level.cubes[cube].part + 1; };
   for (std::size_t i = 0; i < part_of.size(); ++i) {
     const std::uint32_t part = part_of[i];
-    if (part == none) {
-      continue;
-    }
     const std::uint32_t cube = level.parts[part].cube;
     for (const ElementId e : tetrahedra()[sorted_tetrahedra_[i]]) {
       const std::uint32_t other = first[e];
@@ -276,11 +266,9 @@ void CubeSpace::find_volumes(const std::vector<std::uint32_t>& part_of, const Pr
   Level& level = levels_[1];
   for (std::size_t i = 0; i < part_of.size(); ++i) {
     progress.report(i, part_of.size());
-    if (part_of[i] != none) {
-      Part& part = level.parts[part_of[i]];
-      for_each_share(sorted_tetrahedra_[i], level.cubes[part.cube],
-                     [&](int path, double volume) { part.volume[std::size_t(path)] += float(volume); });
-    }
+    Part& part = level.parts[part_of[i]];
+    for_each_share(sorted_tetrahedra_[i], level.cubes[part.cube],
+                   [&](int path, double volume) { part.volume[std::size_t(path)] += float(volume); });
   }
 }
 
@@ -392,16 +380,14 @@ void CubeSpace::find_full(Level& level) {
   }
 }
 
-/// Adds the next coarser level. `pairs` become its.
-void CubeSpace::make_coarser(std::vector<Pair>& pairs) {
+/// Makes the cubes that contain those of a level.
+CubeSpace::Level CubeSpace::cubes_around(Level& fine) {
   Level coarse;
-  Level& fine = levels_.back();
   coarse.width = 2 * fine.width;
   for (std::size_t k = 0; k < 3; ++k) {
     coarse.size[k] = (fine.size[k] + 1) / 2;
   }
   coarse.cube_at.assign(count_of(coarse.size), none);
-  DisjointSets sets(fine.parts.size());
   for (std::uint32_t c = 0; c < fine.cube_count(); ++c) {
     Cube& cube = fine.cubes[c];
     const Place at{cube.at[0] / 2, cube.at[1] / 2, cube.at[2] / 2};
@@ -414,6 +400,14 @@ void CubeSpace::make_coarser(std::vector<Pair>& pairs) {
     }
     cube.parent = parent;
   }
+  coarse.cubes.push_back(fine.cubes.back());
+  coarse.cubes.back().child = std::uint32_t(fine.cube_count());
+  return coarse;
+}
+
+/// Joins the parts of a level that share elements inside the cubes around them.
+void CubeSpace::join_parts(Level& fine, Level& coarse, const std::vector<Pair>& pairs) {
+  DisjointSets sets(fine.parts.size());
   for (const auto& [one, other] : pairs) {
     if (fine.cubes[fine.parts[one].cube].parent == fine.cubes[fine.parts[other].cube].parent) {
       sets.unite(one, other);
@@ -437,11 +431,16 @@ void CubeSpace::make_coarser(std::vector<Pair>& pairs) {
       coarse.parts[part.parent].volume[std::size_t(containing_path(octant, path))] += part.volume[std::size_t(path)];
     }
   }
-  coarse.cubes.push_back(fine.cubes.back());
-  coarse.cubes.back().child = std::uint32_t(fine.cube_count());
   for (++last; last < coarse.cubes.size(); ++last) {
     coarse.cubes[last].part = std::uint32_t(coarse.parts.size());
   }
+}
+
+/// Adds the next coarser level. `pairs` become its.
+void CubeSpace::make_coarser(std::vector<Pair>& pairs) {
+  Level& fine = levels_.back();
+  Level coarse = cubes_around(fine);
+  join_parts(fine, coarse, pairs);
   std::erase_if(pairs, [&](Pair& pair) {
     pair = {fine.parts[pair[0]].parent, fine.parts[pair[1]].parent};
     pair = {std::min(pair[0], pair[1]), std::max(pair[0], pair[1])};

@@ -46,8 +46,8 @@ class CubeSpace {
     std::vector<std::uint32_t> cube_at;
     std::vector<Cube> cubes;  // and one behind the last
     std::vector<Part> parts;
-    std::vector<std::uint8_t> parts_around;  // of each node
-    std::vector<std::uint8_t> is_full;       // of each cube: it is filled, or one beside it is
+    std::vector<std::uint32_t> parts_around;  // of each node
+    std::vector<std::uint8_t> is_full;        // of each cube: it is filled, or one beside it is
 
     std::size_t cube_count() const { return cubes.size() - 1; }
     std::size_t node_count() const { return parts_around.size(); }
@@ -73,8 +73,8 @@ class CubeSpace {
     return {0, std::uint8_t(1 << p[0]), std::uint8_t(7 ^ 1 << p[2]), 7};
   }
 
-  /// Cells that are cut now do not count. Throws Cancelled.
-  CubeSpace(MeshPointer mesh, const Cuts& cuts, const Progress& progress = {});
+  /// Counts all cells, cut or not. Takes memory in proportion to them, however far apart they are. Throws Cancelled.
+  explicit CubeSpace(MeshPointer mesh, const Progress& progress = {});
 
   const Mesh& mesh() const { return *mesh_; }
   double unit() const { return unit_; }
@@ -109,9 +109,11 @@ class CubeSpace {
   std::uint32_t home(ElementId element) const { return home_[element]; }
   /// The part of another level that contains one of level 1.
   std::uint32_t ancestor(std::uint32_t part, int l) const;
-  /// Returns the place of an element at rest.
+  /// Returns where an element is at rest.
   Point point(ElementId element) const { return point_of(mesh_->rest.data() + std::size_t{element} * 3); }
   Point point_of(const double* rest) const { return (Point::Map(rest) - origin_) * per_unit_; }
+  /// Returns the place of level 1 of a point, or the nearest one.
+  Place place_of(const Point& point) const;
   Interpolation interpolate(const Point& point, int l, const Cube& cube) const {
     const double steep = 1.0 / double(1 << l);
     const std::array f{point[0] * steep - cube.at[0], point[1] * steep - cube.at[1], point[2] * steep - cube.at[2]};
@@ -142,13 +144,14 @@ class CubeSpace {
 
   void find_tetrahedra();
   void find_unit(const Progress& progress);
-  Place place_of(const Point& point) const;
   void sort_tetrahedra(const Progress& progress);
-  std::vector<std::uint32_t> find_parts(const Cuts& cuts, const Progress& progress);
+  std::vector<std::uint32_t> find_parts(const Progress& progress);
   std::vector<Pair> find_pairs(const std::vector<std::uint32_t>& part_of);
   void find_volumes(const std::vector<std::uint32_t>& part_of, const Progress& progress);
   void find_reach();
   void sort_elements();
+  static Level cubes_around(Level& fine);
+  static void join_parts(Level& fine, Level& coarse, const std::vector<Pair>& pairs);
   void make_coarser(std::vector<Pair>& pairs);
   static void join_corners(Level& level, const std::vector<Pair>& pairs);
   static void find_full(Level& level);

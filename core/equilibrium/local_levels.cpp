@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "elastic/simplices.h"
+
 namespace chainmail {
 namespace {
 
@@ -15,10 +17,15 @@ constexpr float least_filled = 0.02F;
 // The coarsest level has a few nodes.
 constexpr int rounds_of_coarsest = 6;
 
-/// Finds the gradients of the shape functions of corners 1 to 3. Returns the volume.
+/// Finds the gradients of the shape functions of corners 1 to 3. Returns the volume. All are 0 if the tetrahedron is
+/// flat.
 double shape_of(const std::array<Point, 4>& c, LocalLevels::Shape& gradient) {
   const std::array<Point, 3> edge{c[1] - c[0], c[2] - c[0], c[3] - c[0]};
   const double determinant = edge[0].dot(edge[1].cross(edge[2]));
+  if (is_flat(determinant / 6, std::max({edge[0].norm(), edge[1].norm(), edge[2].norm()}), 3)) {
+    gradient.fill(Point::Zero());
+    return 0;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     gradient[i] = edge[(i + 1) % 3].cross(edge[(i + 2) % 3]) / determinant;
   }
@@ -77,6 +84,11 @@ LocalLevels::Leaf LocalLevels::leaf_of(ElementId element) const {
   return {l, part};
 }
 
+void LocalLevels::Level::clear() {
+  const auto clear_all = [](auto&... all) { (all.clear(), ...); };
+  clear_all(node, hangs, up, share, next, weight, more, diagonal, keep, around, beside_leaf);
+}
+
 void LocalLevels::forget_rows() {
   rows_.clear();
   std::ranges::fill(row_of_, none);
@@ -119,22 +131,45 @@ void LocalLevels::list_level(int l, double modulus) {
       }
     }
   }
-  Level& level = levels_[std::size_t(l)];
-  level.node.clear();
-  level.next.clear();
-  level.weight.clear();
-  level.more.clear();
-  level.diagonal.clear();
-  level.around.clear();
-  level.beside_leaf.clear();
-  level.up.clear();
-  level.share.clear();
+  levels_[std::size_t(l)].clear();
   for (const std::uint32_t c : cubes) {
     for (std::uint32_t p = of.cubes[c].part; p < of.cubes[c + 1].part; ++p) {
       add_part(l, p, modulus);
     }
   }
   classify(l, modulus);
+}
+
+/// Returns the number of the node at a corner of a part, which is listed if it was not.
+std::uint32_t LocalLevels::node_at(int l, const CubeSpace::Part& part, std::size_t corner) {
+  std::uint32_t& i = in_use_[std::size_t(l)][part.corner[corner]];
+  if (i != none) {
+    return i;
+  }
+  Level& level = levels_[std::size_t(l)];
+  i = std::uint32_t(level.node.size());
+  level.node.push_back(part.corner[corner]);
+  level.next.push_back({i, i, i, i, i, i});
+  level.weight.push_back({});
+  level.diagonal.push_back(0);
+  level.around.push_back(0);
+  level.beside_leaf.push_back(0);
+  level.up.push_back({});
+  level.share.push_back({});
+  if (l < top()) {  // between the corners of the coarser cube
+    const auto& corners = space_.level(l + 1).parts[part.parent].corner;
+    const CubeSpace::Place& at = space_.level(l).cubes[part.cube].at;
+    std::size_t low = 0, high = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t offset = std::size_t(at[k] & 1) + (corner >> k & 1);
+      low |= (offset / 2) << k;
+      high |= ((offset + 1) / 2) << k;
+    }
+    const auto& use = in_use_[std::size_t(l) + 1];
+    level.up[i] = {use[corners[low]], use[corners[high]], 0, 0};
+    level.share[i] = {low == high ? 1.0F : 0.5F, low == high ? 0.0F : 0.5F, 0, 0};
+  }
+  return i;
 }
 
 void LocalLevels::add_part(int l, std::uint32_t p, double modulus) {
@@ -144,37 +179,12 @@ void LocalLevels::add_part(int l, std::uint32_t p, double modulus) {
   const bool is_leaf = !is_divided(l, part.cube);
   std::array<std::uint32_t, 8> node;
   for (std::size_t corner = 0; corner < 8; ++corner) {
-    std::uint32_t& i = in_use_[std::size_t(l)][part.corner[corner]];
-    if (i == none) {
-      i = std::uint32_t(level.node.size());
-      level.node.push_back(part.corner[corner]);
-      level.next.push_back({i, i, i, i, i, i});
-      level.weight.push_back({});
-      level.diagonal.push_back(0);
-      level.around.push_back(0);
-      level.beside_leaf.push_back(0);
-      level.up.push_back({});
-      level.share.push_back({});
-      if (l < top()) {  // between the corners of the coarser cube
-        const CubeSpace::Level& coarser = space_.level(l + 1);
-        const auto& corners = coarser.parts[part.parent].corner;
-        const CubeSpace::Place& at = of.cubes[part.cube].at;
-        std::size_t low = 0, high = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const std::size_t offset = std::size_t(at[k] & 1) + (corner >> k & 1);
-          low |= (offset / 2) << k;
-          high |= ((offset + 1) / 2) << k;
-        }
-        const auto& use = in_use_[std::size_t(l) + 1];
-        level.up[i] = {use[corners[low]], use[corners[high]], 0, 0};
-        level.share[i] = {low == high ? 1.0F : 0.5F, low == high ? 0.0F : 0.5F, 0, 0};
-      }
-    }
+    const std::uint32_t i = node_at(l, part, corner);
     node[corner] = i;
     ++level.around[i];
     level.beside_leaf[i] |= is_leaf ? 1 : 0;
   }
-  const auto unit = float(modulus / (of.width * of.width));
+  const auto unit = float(modulus / (double(of.width) * of.width));
   const float least = least_filled * part.all() / 6;
   for (std::size_t path = 0; path < 6; ++path) {
     const float weight = unit * std::max(least, part.volume[path]);
@@ -302,11 +312,7 @@ void LocalLevels::scan(std::uint32_t c, const std::vector<std::uint8_t>& is_gone
 /// Lists the elements of explicit tetrahedra as level 0.
 void LocalLevels::list_elements() {
   Level& level = levels_[0];
-  level.node.clear();
-  level.hangs.clear();
-  level.keep.clear();
-  level.up.clear();
-  level.share.clear();
+  level.clear();
   for (const std::uint32_t t : explicit_) {
     for (const ElementId e : space_.tetrahedra()[t]) {
       std::uint32_t& i = in_use_[0][e];
@@ -390,30 +396,33 @@ void LocalLevels::fill_rows() {
   }
 }
 
+/// Calls visit(i, j, weight) for each neighbour in use of each element that does not hang.
+template <class Visit>
+void LocalLevels::for_each_entry(double modulus, Visit visit) const {
+  const Level& level = levels_[0];
+  for (std::uint32_t i = 0; i < level.size(); ++i) {
+    const ElementId e = level.node[i];
+    if (level.hangs[i] != 0) {
+      continue;
+    }
+    const auto neighbours = space_.mesh().neighbours_of(e);
+    for (std::size_t k = 0; k < neighbours.size(); ++k) {
+      const std::uint32_t j = in_use_[0][neighbours[k]];
+      if (const float weight = rows_[row_of_[e] + k]; j != none && weight != 0) {
+        visit(i, j, float(modulus) * std::max(least_share, weight));
+      }
+    }
+  }
+}
+
 void LocalLevels::find_rows(double modulus) {
   fill_rows();
   Level& level = levels_[0];
-  const Mesh& mesh = space_.mesh();
   const std::size_t count = level.size();
   level.row.assign(count + 1, 0);
   level.diagonal.assign(count, 0);
   level.inverse.assign(count, 0);
-  const auto for_each_entry = [&](auto visit) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const ElementId e = level.node[i];
-      if (level.hangs[i] != 0) {
-        continue;
-      }
-      const auto neighbours = mesh.neighbours_of(e);
-      for (std::size_t k = 0; k < neighbours.size(); ++k) {
-        const std::uint32_t j = in_use_[0][neighbours[k]];
-        if (const float weight = rows_[row_of_[e] + k]; j != none && weight != 0) {
-          visit(i, j, float(modulus) * std::max(least_share, weight));
-        }
-      }
-    }
-  };
-  for_each_entry([&](std::uint32_t i, std::uint32_t j, float) {
+  for_each_entry(modulus, [&](std::uint32_t i, std::uint32_t j, float) {
     ++level.row[i + 1];
     level.row[j + 1] += level.hangs[j];
   });
@@ -423,7 +432,7 @@ void LocalLevels::find_rows(double modulus) {
   level.neighbour.resize(level.row[count]);
   level.row_weight.resize(level.row[count]);
   std::vector<std::uint32_t> next(level.row.begin(), level.row.end() - 1);
-  for_each_entry([&](std::uint32_t i, std::uint32_t j, float weight) {
+  for_each_entry(modulus, [&](std::uint32_t i, std::uint32_t j, float weight) {
     level.diagonal[i] += weight;
     level.neighbour[next[i]] = j;
     level.row_weight[next[i]++] = weight;
@@ -591,7 +600,8 @@ void LocalLevels::smooth(Level& level, int l, std::vector<Floats4>& x) {
   }
 }
 
-void LocalLevels::cycle(const std::vector<Floats4>& q, std::vector<Floats4>& z) {
+/// Smooths from the finest level on, and leaves the residual to the next coarser one.
+void LocalLevels::go_down(const std::vector<Floats4>& q) {
   for (int l = 0;; ++l) {
     Level& level = levels_[std::size_t(l)];
     for (std::size_t i = 0; i < level.size(); ++i) {
@@ -611,11 +621,14 @@ void LocalLevels::cycle(const std::vector<Floats4>& q, std::vector<Floats4>& z) 
       level.r[i] *= level.keep[i];
     }
     if (l == top()) {
-      break;
+      return;
     }
     smooth(level, l, level.x);
     multiply(level, l, level.x, level.t);
   }
+}
+
+void LocalLevels::solve_coarsest() {
   Level& last = levels_.back();
   std::ranges::fill(last.x, Floats4{});
   for (int round = 0; round < rounds_of_coarsest; ++round) {
@@ -626,28 +639,38 @@ void LocalLevels::cycle(const std::vector<Floats4>& q, std::vector<Floats4>& z) 
       last.r[i] -= last.keep[i] * last.t[i];
     }
   }
+}
+
+/// Adds what the next coarser level found, and smooths.
+void LocalLevels::go_up(int l) {
+  Level& level = levels_[std::size_t(l)];
+  const Level& coarse = levels_[std::size_t(l) + 1];
+  const std::size_t ups = l == 0 ? 4 : 2;
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    Floats4 sum{};
+    for (std::size_t k = 0; k < ups; ++k) {
+      sum += level.share[i][k] * coarse.x[level.up[i][k]];
+    }
+    sum *= level.keep[i];
+    level.r[i] -= level.t[i];
+    level.x[i] += sum;
+    level.y[i] = sum;
+  }
+  multiply(level, l, level.y, level.t);
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    level.r[i] -= level.t[i];
+  }
+  smooth(level, l, level.y);
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    level.x[i] += level.y[i];
+  }
+}
+
+void LocalLevels::cycle(const std::vector<Floats4>& q, std::vector<Floats4>& z) {
+  go_down(q);
+  solve_coarsest();
   for (int l = top() - 1; l >= 0; --l) {
-    Level& level = levels_[std::size_t(l)];
-    const Level& coarse = levels_[std::size_t(l) + 1];
-    const std::size_t ups = l == 0 ? 4 : 2;
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      Floats4 sum{};
-      for (std::size_t k = 0; k < ups; ++k) {
-        sum += level.share[i][k] * coarse.x[level.up[i][k]];
-      }
-      sum *= level.keep[i];
-      level.r[i] -= level.t[i];
-      level.x[i] += sum;
-      level.y[i] = sum;
-    }
-    multiply(level, l, level.y, level.t);
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      level.r[i] -= level.t[i];
-    }
-    smooth(level, l, level.y);
-    for (std::size_t i = 0; i < level.size(); ++i) {
-      level.x[i] += level.y[i];
-    }
+    go_up(l);
   }
   z.resize(point_count_);
   for (const Level& level : levels_) {

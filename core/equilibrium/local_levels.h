@@ -44,6 +44,7 @@ class LocalLevels {
     std::vector<std::uint8_t> beside_leaf;
     std::vector<Floats4> r, x, t, y;
     std::size_t size() const { return node.size(); }
+    void clear();
   };
 
   LocalLevels(const CubeSpace& space, const FixedElements& fixed);
@@ -100,11 +101,14 @@ class LocalLevels {
 
  private:
   void list_level(int l, double modulus);
+  std::uint32_t node_at(int l, const CubeSpace::Part& part, std::size_t corner);
   void add_part(int l, std::uint32_t part, double modulus);
   void add_edge(Level& level, std::uint32_t i, std::uint32_t j, std::size_t axis, float weight);
   void classify(int l, double modulus);
   void find_explicit(const std::vector<std::uint8_t>& is_gone);
   void list_elements();
+  template <class Visit>
+  void for_each_entry(double modulus, Visit visit) const;
   void find_rows(double modulus);
   void fill_rows();
   void scan(std::uint32_t cube, const std::vector<std::uint8_t>& is_gone);
@@ -114,6 +118,9 @@ class LocalLevels {
   void add_leaf(int l, std::uint32_t part);
   void find_springs();
   void find_fixed_points();
+  void go_down(const std::vector<Floats4>& q);
+  void solve_coarsest();
+  void go_up(int l);
   static void multiply(const Level& level, int l, const std::vector<Floats4>& x, std::vector<Floats4>& result);
   static void smooth(Level& level, int l, std::vector<Floats4>& x);
 

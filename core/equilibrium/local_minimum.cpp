@@ -160,6 +160,25 @@ bool LocalMinimum::has_divided_child(int l, std::uint32_t cube) const {
   return false;
 }
 
+/// Finds what interpolation misses beside each node of a level.
+void LocalMinimum::find_roughness(int l) {
+  const LocalLevels::Level& level = levels_.level(l);
+  const auto& values = values_[std::size_t(l)];
+  auto& rough = rough_[std::size_t(l)];
+  rough.resize(level.size());
+  for (std::uint32_t i = 0; i < level.size(); ++i) {
+    double most = 0;
+    for (std::size_t k = 0; k < 6; k += 2) {
+      const std::uint32_t a = level.next[i][k], b = level.next[i][k + 1];
+      if (a != i && b != i) {
+        const Doubles4 second = values[a] - 2 * values[i] + values[b];
+        most = std::max(most, square_of(second));
+      }
+    }
+    rough[i] = float(std::sqrt(most) / 8);  // what interpolation misses in the middle
+  }
+}
+
 /// Divides cubes in which interpolation misses much of the displacement, by its second differences, and joins others.
 /// Returns true if any changed. A few changes wait for others.
 bool LocalMinimum::adapt_to_strain(double size) {
@@ -173,21 +192,7 @@ bool LocalMinimum::adapt_to_strain(double size) {
   const double limit = resolution_.tolerance * size;
   rough_.resize(values_.size());
   for (int l = 1; l <= levels_.top(); ++l) {
-    const LocalLevels::Level& level = levels_.level(l);
-    const auto& values = values_[std::size_t(l)];
-    auto& rough = rough_[std::size_t(l)];
-    rough.resize(level.size());
-    for (std::uint32_t i = 0; i < level.size(); ++i) {
-      double most = 0;
-      for (std::size_t k = 0; k < 6; k += 2) {
-        const std::uint32_t a = level.next[i][k], b = level.next[i][k + 1];
-        if (a != i && b != i) {
-          const Doubles4 second = values[a] - 2 * values[i] + values[b];
-          most = std::max(most, square_of(second));
-        }
-      }
-      rough[i] = float(std::sqrt(most) / 8);  // what interpolation misses in the middle
-    }
+    find_roughness(l);
     for (const std::uint32_t c : levels_.cubes(l)) {
       const double error = roughness_of(l, c);
       const bool divided = levels_.is_divided(l, c);
@@ -256,46 +261,51 @@ void LocalMinimum::interpolate(Known known, WideVectors& points) const {
   }
 }
 
-/// Takes displacements of elements over: corners of cubes get means of what is near.
-void LocalMinimum::start_from(const Read& read) {
+/// Returns the displacement of each node of a level: means of what is near, or NaN where nothing is.
+std::vector<Doubles4> LocalMinimum::means_at(int l, const Read& read) const {
   const CubeSpace& space = levels_.space();
-  Values sums(std::size_t(levels_.top()) + 1);  // the last number of each is the weight
+  std::vector<Doubles4> sums(levels_.level(l).size(), Doubles4{});  // the last number of each is the weight
+  for (std::uint32_t i = 0; l == 0 && i < sums.size(); ++i) {
+    if (const ElementId e = levels_.level(0).node[i]; !fixed_.is_held(e)) {
+      read(e, sums[i]);
+      sums[i][3] = 1;
+    }
+  }
+  const std::uint32_t stride = 1U << std::min(30, 3 * std::max(0, l - 2));  // about 64 elements of each cube are enough
+  for (const std::uint32_t c : l > 0 ? levels_.cubes(l) : std::vector<std::uint32_t>()) {
+    const CubeSpace::Level& level = space.level(l);
+    for (std::uint32_t i = level.cubes[c].element; i < level.cubes[c + 1].element; i += stride) {
+      const ElementId e = space.sorted_elements()[i];
+      if (fixed_.is_held(e)) {
+        continue;  // it moves later
+      }
+      const auto& corner = level.parts[space.ancestor(space.home(e), l)].corner;
+      const auto at = space.interpolate(space.point(e), l, level.cubes[c]);
+      Doubles4 displacement;
+      read(e, displacement);
+      displacement[3] = 1;
+      for (std::size_t k = 0; k < 4; ++k) {
+        sums[levels_.find(l, corner[at.corner[k]])] += std::max(0.0, at.weight[k]) * displacement;
+      }
+    }
+  }
+  for (Doubles4& sum : sums) {
+    const double weight = sum[3];
+    sum[3] = 0;
+    sum = weight > 0 ? sum / weight : Doubles4{} + std::numeric_limits<double>::quiet_NaN();
+  }
+  return sums;
+}
+
+/// Takes displacements of elements over.
+void LocalMinimum::start_from(const Read& read) {
+  Values means;
   for (int l = 0; l <= levels_.top(); ++l) {
-    auto& of = sums[std::size_t(l)];
-    of.assign(levels_.level(l).size(), Doubles4{});
-    for (std::uint32_t i = 0; l == 0 && i < of.size(); ++i) {
-      if (const ElementId e = levels_.level(0).node[i]; !fixed_.is_held(e)) {
-        read(e, of[i]);
-        of[i][3] = 1;
-      }
-    }
-    const std::uint32_t stride = 1U << 3 * std::max(0, l - 2);  // about 64 elements of each cube are enough
-    for (const std::uint32_t c : l > 0 ? levels_.cubes(l) : std::vector<std::uint32_t>()) {
-      const CubeSpace::Level& level = space.level(l);
-      for (std::uint32_t i = level.cubes[c].element; i < level.cubes[c + 1].element; i += stride) {
-        const ElementId e = space.sorted_elements()[i];
-        if (fixed_.is_held(e)) {
-          continue;  // it moves later
-        }
-        const auto& corner = level.parts[space.ancestor(space.home(e), l)].corner;
-        const auto at = space.interpolate(space.point(e), l, level.cubes[c]);
-        Doubles4 displacement;
-        read(e, displacement);
-        displacement[3] = 1;
-        for (std::size_t k = 0; k < 4; ++k) {
-          of[levels_.find(l, corner[at.corner[k]])] += std::max(0.0, at.weight[k]) * displacement;
-        }
-      }
-    }
-    for (Doubles4& sum : of) {
-      const double weight = sum[3];
-      sum[3] = 0;
-      sum = weight > 0 ? sum / weight : Doubles4{} + std::numeric_limits<double>::quiet_NaN();
-    }
+    means.push_back(means_at(l, read));
   }
   interpolate(
       [&](int l, std::uint32_t i) {
-        const Doubles4& own = sums[std::size_t(l)][i];
+        const Doubles4& own = means[std::size_t(l)][i];
         return own[0] == own[0] ? &own : nullptr;
       },
       at_);
@@ -370,24 +380,16 @@ void LocalMinimum::find_stretch(const LocalLevels::Spring& spring, Doubles4& apa
   }
 }
 
-/// Moves the fixed points to where they are, and all others by Laplace's extension of that.
-void LocalMinimum::extend() {
-  start_.assign(at_.size(), Doubles4{});
-  double most = 0;
-  for (const auto& [element, point] : levels_.fixed_points()) {
-    start_[point] = fixed_.displacement(element) - at_[point];
-    at_[point] = fixed_.displacement(element);
-    most = std::max(most, square_of(start_[point]));
-  }
-  residual_.assign(at_.size(), Floats4{});
+/// Adds the forces on the points beside the fixed ones that have jumped by start_.
+void LocalMinimum::add_jump() {
   const double modulus = 2 * lame_.mu + lame_.lambda;
   for (const std::uint32_t index : levels_.batches_beside_handle()) {
     const LocalLevels::Batch& batch = levels_.batches()[index];
     for (std::size_t lane = 0; lane < 4; ++lane) {
       Doubles4 jumped[3]{};  // the gradient of the jump
       for (std::size_t k = 0; k < 3; ++k) {
+        const Doubles4 apart = start_[batch.corner[k + 1][lane]] - start_[batch.corner[0][lane]];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-          const Doubles4 apart = start_[batch.corner[k + 1][lane]] - start_[batch.corner[0][lane]];
           jumped[axis] += batch.gradient[k][axis].at[lane] * apart;
         }
       }
@@ -401,6 +403,19 @@ void LocalMinimum::extend() {
       }
     }
   }
+}
+
+/// Moves the fixed points to where they are, and all others by Laplace's extension of that.
+void LocalMinimum::extend() {
+  start_.assign(at_.size(), Doubles4{});
+  double most = 0;
+  for (const auto& [element, point] : levels_.fixed_points()) {
+    start_[point] = fixed_.displacement(element) - at_[point];
+    at_[point] = fixed_.displacement(element);
+    most = std::max(most, square_of(start_[point]));
+  }
+  residual_.assign(at_.size(), Floats4{});
+  add_jump();
   for (const auto& spring : levels_.springs()) {
     if (!fixed_.is_held(spring.element)) {
       continue;
@@ -409,7 +424,7 @@ void LocalMinimum::extend() {
     find_stretch(spring, apart);
     most = std::max(most, square_of(apart));
     for (std::size_t k = 0; k < 4; ++k) {
-      const Doubles4 pull = modulus * double(spring.weight[k]) * apart;
+      const Doubles4 pull = (2 * lame_.mu + lame_.lambda) * double(spring.weight[k]) * apart;
       residual_[spring.point[k]] += __builtin_convertvector(pull, Floats4);
     }
   }
@@ -487,13 +502,11 @@ bool LocalMinimum::step() {
   return try_step() || try_step();
 }
 
-bool LocalMinimum::try_step() {
-  const std::size_t count = at_.size();
-  residual_.resize(count);
-  double was = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+/// Finds the direction of the next step, and how steep the energy is along it.
+void LocalMinimum::find_direction() {
+  residual_.resize(at_.size());
+  for (std::size_t i = 0; i < at_.size(); ++i) {
     residual_[i] = __builtin_convertvector(force_[i], Floats4);
-    was += square_of(force_[i]);
   }
   std::array<double, max_pairs> part{};
   for (std::size_t p = pairs_.size(); p-- > 0;) {
@@ -505,10 +518,41 @@ bool LocalMinimum::try_step() {
     add(direction_, float(part[p] - dot(pairs_[p].change, direction_) / pairs_[p].product), pairs_[p].step);
   }
   slope_ = 0;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < at_.size(); ++i) {
     const Doubles4 product = __builtin_convertvector(direction_[i], Doubles4) * force_[i];
     slope_ += product[0] + product[1] + product[2];
   }
+}
+
+/// Learns about the curvature from the last step.
+void LocalMinimum::learn(double length) {
+  Pair pair;
+  if (pairs_.size() == max_pairs) {
+    pair = std::move(pairs_.front());
+    pairs_.pop_front();
+  }
+  pair.step.resize(at_.size());
+  pair.change.resize(at_.size());
+  double was = 0, is = 0, all = 0;
+  for (std::size_t k = 0; k < at_.size(); ++k) {
+    const Doubles4 change = old_force_[k] - force_[k];
+    pair.step[k] = float(length) * direction_[k];
+    pair.change[k] = __builtin_convertvector(change, Floats4);
+    was += square_of(old_force_[k]);
+    is += square_of(force_[k]);
+    all += square_of(at_[k]);
+  }
+  pair.product = dot(pair.step, pair.change);
+  stepped_ = all > 0 ? std::sqrt(dot(pair.step, pair.step) / all) : 0;
+  shrunk_ = was > 0 ? std::min(1.0, std::sqrt(is / was)) : 0;
+  if (pair.product > 0) {
+    pairs_.push_back(std::move(pair));
+  }
+}
+
+/// Forgets what was learned if no step lowers the energy.
+bool LocalMinimum::try_step() {
+  find_direction();
   if (!(slope_ > 0)) {
     pairs_.clear();
     slope_ = 0;
@@ -518,37 +562,16 @@ bool LocalMinimum::try_step() {
   old_force_ = force_;
   double length = 1;
   for (int i = 0; i < max_tries; ++i, length /= 2) {
-    for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < at_.size(); ++k) {
       at_[k] = start_[k] + length * __builtin_convertvector(direction_[k], Doubles4);
     }
     const double energy = find_force();
-    if (!(energy <= energy_ - 1e-4 * length * slope_ + 1e-13 * energy_) || !is_allowed()) {
-      continue;
+    if (energy <= energy_ - 1e-4 * length * slope_ + 1e-13 * energy_ && is_allowed()) {
+      energy_ = energy;
+      std::swap(ratios_, tried_);
+      learn(length);
+      return true;
     }
-    energy_ = energy;
-    std::swap(ratios_, tried_);
-    Pair pair;
-    if (pairs_.size() == max_pairs) {
-      pair = std::move(pairs_.front());
-      pairs_.pop_front();
-    }
-    pair.step.resize(count);
-    pair.change.resize(count);
-    double is = 0, all = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const Doubles4 change = old_force_[k] - force_[k];
-      pair.step[k] = float(length) * direction_[k];
-      pair.change[k] = __builtin_convertvector(change, Floats4);
-      is += square_of(force_[k]);
-      all += square_of(at_[k]);
-    }
-    pair.product = dot(pair.step, pair.change);
-    stepped_ = all > 0 ? std::sqrt(dot(pair.step, pair.step) / all) : 0;
-    shrunk_ = was > 0 ? std::min(1.0, std::sqrt(is / was)) : 0;
-    if (pair.product > 0) {
-      pairs_.push_back(std::move(pair));
-    }
-    return true;
   }
   at_ = start_;
   force_ = old_force_;

@@ -47,7 +47,6 @@ class LocalMinimum {
   }
   /// Estimated distance from the minimum, as √(energy of the distance / energy).
   double distance() const;
-  double energy() const { return energy_; }
   /// The least ratio of volumes; below 0 if a tetrahedron is inverted.
   double least_ratio() const;
 
@@ -60,6 +59,7 @@ class LocalMinimum {
 
   bool is_too_wide(int l, std::uint32_t cube) const;
   void divide_forced(int l, std::uint32_t cube);
+  void find_roughness(int l);
   bool adapt_to_strain(double size);
   double roughness_of(int l, std::uint32_t cube) const;
   bool has_divided_child(int l, std::uint32_t cube) const;
@@ -69,14 +69,18 @@ class LocalMinimum {
   void carry(const Values& old, WideVectors& points) const;
   template <class Known>
   void interpolate(Known known, WideVectors& points) const;
+  std::vector<Doubles4> means_at(int l, const Read& read) const;
   void start_from(const Read& read);
   void predict();
+  void add_jump();
   void extend();
   void find_stretch(const LocalLevels::Spring& spring, Doubles4& apart) const;
   double find_force();
   void harden();
   bool is_allowed() const;
   bool step();
+  void find_direction();
+  void learn(double length);
   bool try_step();
 
   LocalLevels levels_;

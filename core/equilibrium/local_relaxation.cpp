@@ -38,7 +38,7 @@ bool LocalRelaxation::is_for(const Body& body) {
 LocalRelaxation::LocalRelaxation(const Body& body, const Options& options, const Progress& progress)
     : options_(options),
       mesh_(body.stored_mesh()),
-      space_(mesh_, Cuts(), progress),
+      space_(mesh_, progress),
       fixed_(space_),
       minimum_(space_, fixed_, resolution_of(options, space_.extent(), 1)),
       is_gone_(space_.tetrahedra().size(), 0) {
@@ -105,13 +105,12 @@ void LocalRelaxation::follow_cuts(const Body& body) {
   const CubeSpace::Level& level = space_.level(1);
   std::vector<std::uint32_t> cubes;
   for (const LinkId link : links) {
-    const Point point = space_.point(mesh_->links[link][0]) / 2;
+    const CubeSpace::Place at = space_.place_of(space_.point(mesh_->links[link][0]));
     const int reach = space_.reach();
     for (int z = -reach; z <= reach; ++z) {
       for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
-          const auto at = [&](int k, int by) { return int(std::floor(point[k])) + by; };
-          cubes.push_back(level.find({at(0, x), at(1, y), at(2, z)}));
+          cubes.push_back(level.find({at[0] + x, at[1] + y, at[2] + z}));
         }
       }
     }
@@ -147,15 +146,7 @@ LocalRelaxation::Result LocalRelaxation::update(Body& body, std::span<const Elem
     twin_->move(size_, options_.max_iterations, start);
     result.estimate = difference() / per_error;
   }
-  body.with_view([&]<class View>(const View& view) {
-    if constexpr (View::Dimension == 3) {
-      write(view, false);
-    }
-  });
-  if (!moved_.empty()) {
-    body.note_relaxation();
-    seen_ = body.revisions();
-  }
+  write_to(body, false);
   result.nodes = minimum_.levels().unknown_count();
   result.tetrahedra = minimum_.levels().tetrahedron_count();
   result.distance = minimum_.distance();
@@ -163,10 +154,10 @@ LocalRelaxation::Result LocalRelaxation::update(Body& body, std::span<const Elem
   return result;
 }
 
-void LocalRelaxation::finish(Body& body) {
+void LocalRelaxation::write_to(Body& body, bool everything) {
   body.with_view([&]<class View>(const View& view) {
     if constexpr (View::Dimension == 3) {
-      write(view, true);
+      write(view, everything);
     }
   });
   if (!moved_.empty()) {

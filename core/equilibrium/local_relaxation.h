@@ -44,7 +44,7 @@ class LocalRelaxation {
   /// Follows the handle, which is where the body has it, and writes the elements that are fine or on the surface.
   Result update(Body& body, std::span<const ElementId> held);
   /// Writes all elements.
-  void finish(Body& body);
+  void finish(Body& body) { write_to(body, true); }
   /// Call this when no handle moves any more: the next one starts from the positions of the body.
   void release() { starts_anew_ = true; }
   /// The elements that the last call wrote, each once.
@@ -53,6 +53,7 @@ class LocalRelaxation {
  private:
   void follow(const Body& body, std::span<const ElementId> held);
   void follow_cuts(const Body& body);
+  void write_to(Body& body, bool everything);
   template <class View>
   void write(const View& view, bool everything);
   template <class View>

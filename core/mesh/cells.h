@@ -38,6 +38,21 @@ struct OrderAtRest {
   bool operator()(ElementId one, ElementId other) const;
 };
 
+/// Calls visit(corners) for each cube between the elements of a lattice in space.
+template <class Visit>
+void for_each_cube(const Lattice& lattice, Visit visit) {
+  const auto [width, height, depth] = lattice.size;
+  const ElementId row = width, slice = width * height;
+  for (std::uint32_t z = 0; z + 1 < depth; ++z) {
+    for (std::uint32_t y = 0; y + 1 < height; ++y) {
+      for (std::uint32_t x = 0; x + 1 < width; ++x) {
+        const ElementId a = z * slice + y * row + x, e = a + slice;
+        visit(std::array<ElementId, 8>{a, a + 1, a + row + 1, a + row, e, e + 1, e + row + 1, e + row});
+      }
+    }
+  }
+}
+
 /// Calls visit(corners) for the six tetrahedra that a hexahedron stands for: a fan from its first corner over the sides
 /// without this corner. Each side is divided by the diagonal from its own first corner, so neighbours agree.
 template <class Visit>

@@ -38,6 +38,8 @@ class LocalRelaxationTest : public QObject {
   void the_unit_of_length_does_not_matter();
   void a_rod_bends();
   void it_starts_where_the_object_is();
+  void parts_far_apart_take_as_much_memory_as_near_ones();
+  void flat_cells_do_not_count();
 };
 
 namespace {
@@ -255,7 +257,7 @@ void LocalRelaxationTest::cubes_of_each_level_hold_the_object_data() {
 /// The volume of the object is that in the cubes, on each level; each element is interpolated to where it is.
 void LocalRelaxationTest::cubes_of_each_level_hold_the_object() {
   QFETCH(const MeshPointer, mesh);
-  const CubeSpace space(mesh, Cuts(mesh));
+  const CubeSpace space(mesh);
   double volume = 0;
   for (std::uint32_t t = 0; t < space.tetrahedra().size(); ++t) {
     volume += CubeSpace::volume_of(space.points_of(t));
@@ -355,7 +357,7 @@ void LocalRelaxationTest::a_cut_opens() {
 
 void LocalRelaxationTest::two_branches_in_one_cube_are_apart() {
   const MeshPointer mesh = fork();
-  const CubeSpace space(mesh, Cuts(mesh));
+  const CubeSpace space(mesh);
   const auto& level = space.level(2);
   bool has_two = false;
   for (std::uint32_t c = 0; c < level.cube_count(); ++c) {
@@ -447,6 +449,37 @@ void LocalRelaxationTest::it_starts_where_the_object_is() {
   };
   const double there = after_one_iteration(true), at_rest = after_one_iteration(false);
   QVERIFY2(there < 0.1 && there < at_rest / 2, qPrintable(QString("%1 against %2").arg(there).arg(at_rest)));
+}
+
+void LocalRelaxationTest::parts_far_apart_take_as_much_memory_as_near_ones() {
+  for (const double apart : {1e3, 1e7, 1e90}) {
+    const MeshPointer mesh = carved(
+        {17, 9, 9}, [](const Point& c) { return c[0] < 10 || c[0] > 11; },
+        [&](const Point& at, ElementId) -> Point { return at[0] > 10.5 ? Point(at + Point::Constant(apart)) : at; });
+    const CubeSpace space(mesh);
+    const auto& size = space.level(1).size;
+    QVERIFY(double(size[0]) * size[1] * size[2] <= double(mesh->tetrahedra.size()));
+    const Scene scene(mesh, Point(8, 4, 4), 1.6, 1);
+    const auto at = dragged(scene).at;
+    QVERIFY(std::ranges::all_of(at, [](double one) { return std::isfinite(one); }));
+  }
+}
+
+/// As in the energy of all elements, where a flat layer of cells beside the handle holds nothing together.
+void LocalRelaxationTest::flat_cells_do_not_count() {
+  const MeshPointer mesh = carved(
+      {17, 13, 13}, [](const Point&) { return true; },
+      [](const Point& at, ElementId) -> Point {
+        const bool onto_next = at[0] == 12 && at[1] >= 3 && at[1] <= 9 && at[2] >= 8;
+        return onto_next ? Point(at + (1 - 1e-10) * Point::UnitX()) : at;
+      });
+  const Scene scene(mesh, Point(14, 6, 11), 1.6, 1);
+  const std::vector<double> is = dragged(scene).at, should = equilibrium(scene, 1);
+  double largest = 0;
+  for (std::size_t i = 0; i < is.size(); ++i) {
+    largest = std::max(largest, std::abs(is[i] - should[i]));
+  }
+  QVERIFY2(largest < 0.04, std::to_string(largest).c_str());
 }
 
 CHAINMAIL_TEST(LocalRelaxationTest)
