@@ -95,7 +95,16 @@ class Builder {
   }
 
   void add_cells() {
-    for (const auto& cell : mesh_.tetrahedra) {
+    const std::size_t tetrahedra = mesh_.tetrahedra.size(), hexahedra = mesh_.hexahedra.size();
+    simplices_.corners.reserve(4 * (tetrahedra + 6 * hexahedra));
+    if (cells_ != nullptr) {
+      cells_->cell_of.reserve(tetrahedra + 6 * hexahedra);
+      cells_->first_link.reserve(tetrahedra + hexahedra + 1);
+      cells_->links.reserve(6 * tetrahedra + 12 * hexahedra);
+    }
+    const Progress progress = progress_.part(0, 0.4);
+    for (std::size_t i = 0; const auto& cell : mesh_.tetrahedra) {
+      progress.report(i++, mesh_.tetrahedra.size());
       if (is_whole(mesh_, cuts_, cell)) {
         note_cell(tetrahedron_edges, cell, 1);
         add({cell[0], cell[1], cell[2], cell[3]});
@@ -154,8 +163,9 @@ class Builder {
     const std::size_t width = static_cast<std::size_t>(n) + 1, count = simplices_.corners.size() / width;
     simplices_.volumes.reserve(count);
     simplices_.gradients.resize(count * width * static_cast<std::size_t>(n));
+    const Progress progress = progress_.part(0.4, 1);
     for (std::size_t s = 0; s < count; ++s) {
-      progress_.report(s, count);
+      progress.report(s, count);
       find_shape(s);
     }
   }

@@ -178,7 +178,7 @@ class Equilibrator final : public EquilibriumSolver {
     shown_.mesh = mesh_.get();
     shown_.positions.resize(mesh_->element_count());
     iterate_.resize(mesh_->element_count());
-    energy_ = LinkMatrix<double, D>(mesh_);
+    energy_ = {};
     newton_.forget();
     fixed_.assign(mesh_->element_count(), 0);
     jump_.assign(mesh_->element_count(), Vector());
@@ -255,8 +255,8 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// A kind of energy, and a stiffness of another order of magnitude, need everything anew.
   void take_energy(const Body& body) {
-    const double mean = mean_weight(body);
     const EnergyKind kind = energy_in(*mesh_, body.softness().energy);
+    const double mean = kind == EnergyKind::material ? 1 : mean_weight(body);
     if (kind_ != kind || !(mean < 10 * scale_ && mean > scale_ / 10)) {
       kind_ = kind;
       scale_ = mean;
@@ -271,11 +271,18 @@ class Equilibrator final : public EquilibriumSolver {
 
   /// The material has links only in its preconditioner, which follows when it is used.
   void note_links() {
+    energy_ = {};
     has_cuts_ = false;
     iterations_ = 0;
   }
 
   void update_links(const Body& body) {
+    if (energy_.size() == 0) {
+      energy_ = LinkMatrix<double, D>(mesh_);
+      for (ElementId e = 0; e < fixed_.size(); ++e) {
+        energy_.set_fixed(e, fixed_[e] != 0);
+      }
+    }
     std::vector<ElementId> rows;
     bool cut = false;
     for (LinkId link = 0; link < mesh_->link_count(); ++link) {
@@ -328,7 +335,9 @@ class Equilibrator final : public EquilibriumSolver {
     std::vector<ElementId> rows;
     for (ElementId e = 0; e < fixed.size(); ++e) {
       if (fixed[e] != fixed_[e]) {
-        energy_.set_fixed(e, fixed[e] != 0);
+        if (energy_.size() > 0) {
+          energy_.set_fixed(e, fixed[e] != 0);
+        }
         if (penalised_matrix_) {
           penalised_matrix_->set_fixed(e, fixed[e] != 0);
         }
@@ -432,6 +441,7 @@ class Equilibrator final : public EquilibriumSolver {
   /// One step of the search for the minimum of the material's energy, then of the forces of regions.
   void material_step(const Progress& progress) {
     prepare_material(progress);
+    progress.report(1);
     prepared_ = material_->step(iterate_, threads_, progress) || prepared_;
     energy_of_iterate_ = material_->energy();
     note_distance(material_->distance());
@@ -444,13 +454,14 @@ class Equilibrator final : public EquilibriumSolver {
 
   void prepare_material(const Progress& progress) {
     if (!material_->has_begun()) {
-      material_->begin(mesh_, progress.part(0, 0.3));
+      material_->begin(mesh_, progress.part(0, 0.4));
       known_elastic_.reset();
       has_cuts_ = has_fixed_ = false;
     }
-    const std::uint64_t elastic = shown_.body->revisions().elastic;
-    if (std::exchange(known_elastic_, elastic) != elastic) {
-      material_->set_material(shown_.body->elastic());
+    if (const std::uint64_t elastic = shown_.body->revisions().elastic; known_elastic_ != elastic) {
+      known_elastic_.reset();
+      material_->set_material(shown_.body->elastic(), progress.part(0.4, 0.5));
+      known_elastic_ = elastic;
       has_cuts_ = false;
     }
     if (!std::exchange(has_cuts_, true)) {
@@ -460,7 +471,7 @@ class Equilibrator final : public EquilibriumSolver {
       material_->set_fixed(e, fixed_[e] != 0);
     }
     has_fixed_ = true;
-    prepared_ = material_->update(progress.part(0.3, 1)) || prepared_;
+    prepared_ = material_->update(progress.part(0.5, 1)) || prepared_;
     if (std::exchange(has_jump_, false)) {
       follow_jump();
     }
@@ -802,7 +813,7 @@ class Equilibrator final : public EquilibriumSolver {
   double scale_ = 0;  // by which the stiffness of links is divided
   PathSearch search_;
 
-  LinkMatrix<double, D> energy_;
+  LinkMatrix<double, D> energy_;  // of links; empty with that of the material
   Preconditioner<D> free_;
   std::optional<LinkMatrix<double, D>> penalised_matrix_;
   Preconditioner<D> penalised_;

@@ -23,7 +23,7 @@ class LaplacianPreconditioner {
     grid_ = {};
     outdated_.clear();
     changed_.clear();
-    cut_ = false;
+    cut_ = are_all_outdated_ = false;
   }
   const Mesh& mesh() const { return matrix_.mesh(); }
   bool is_fixed(ElementId element) const { return matrix_.is_fixed(element); }
@@ -34,6 +34,14 @@ class LaplacianPreconditioner {
     const auto [i, j] = mesh().links[link];
     outdated_.insert(outdated_.end(), {i, j});
     cut_ = cut_ || weight == 0;
+  }
+  /// The same for all links.
+  void set_links(std::span<const double> weights) {
+    for (LinkId link = 0; link < weights.size(); ++link) {
+      matrix_.set_link(link, static_cast<float>(weights[link]));
+      finest_.set_link(link, static_cast<float>(weights[link]));
+    }
+    are_all_outdated_ = true;
   }
   /// The same for a while: the coarser levels keep the weight of before.
   void set_link_for_a_while(LinkId link, double weight) {
@@ -53,7 +61,7 @@ class LaplacianPreconditioner {
   bool update(const Progress& progress) {
     std::ranges::sort(outdated_);
     outdated_.erase(std::unique(outdated_.begin(), outdated_.end()), outdated_.end());
-    const bool builds = !grid_.is_built() || outdated_.size() > matrix_.size() / 2;
+    const bool builds = !grid_.is_built() || are_all_outdated_ || outdated_.size() > matrix_.size() / 2;
     if (builds) {
       grid_.build(matrix_, progress);
     } else if (!outdated_.empty()) {
@@ -67,7 +75,7 @@ class LaplacianPreconditioner {
     grid_.update_finest(finest_, changed_);
     outdated_.clear();
     changed_.clear();
-    cut_ = false;
+    cut_ = are_all_outdated_ = false;
     return builds;
   }
 
@@ -108,6 +116,7 @@ class LaplacianPreconditioner {
   Multigrid<Matrix> grid_;
   std::vector<ElementId> outdated_;  // rows
   std::vector<ElementId> changed_;   // rows of which the finest level is outdated
+  bool are_all_outdated_ = false;
   bool cut_ = false;
   typename Matrix::Vectors right_, result_;
 };

@@ -54,14 +54,16 @@ double energy_in_space(const Mesh& mesh, const ElasticOptions& elastic, const Cu
 template <int D>
 void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
   mesh_ = std::move(mesh);
-  cells_ = build_cell_simplices(*mesh_, progress);
+  cells_ = build_cell_simplices(*mesh_, progress.part(0, 0.5));
   const std::size_t count = cells_.simplices.count();
   is_whole_.assign(cells_.cell_count(), 1);
   is_cut_.assign(mesh_->link_count(), 0);
   whole_beside_.assign(mesh_->element_count(), 0);
   first_simplex_.assign(cells_.cell_count() + 1, 0);
   batches_.assign((count + Batch::lanes - 1) / Batch::lanes, Batch{});
+  const Progress filling = progress.part(0.5, 0.8);
   for (std::size_t s = 0; s < count; ++s) {
+    filling.report(s, count);
     set_simplex(batches_[s / Batch::lanes], s % Batch::lanes, s);
     for (const ElementId corner : cells_.simplices.corners_of(s)) {
       ++whole_beside_[corner];
@@ -71,12 +73,13 @@ void MaterialEnergy<D>::build(MeshPointer mesh, const Progress& progress) {
   for (std::size_t cell = 0; cell + 1 < first_simplex_.size(); ++cell) {
     first_simplex_[cell + 1] += first_simplex_[cell];
   }
+  cells_.simplices.gradients = std::vector<double>();  // the batches have them
   cut_links_.clear();
   changed_cells_.clear();
   loose_before_.reset();
   loose_.find(*mesh_, Cuts(), whole_beside_);
-  find_cell_links();
-  divide();
+  find_cell_links(progress.part(0.8, 0.9));
+  divide(progress.part(0.9, 1));
 }
 
 /// Sets the corners and gradients of one simplex of a batch.
@@ -92,9 +95,34 @@ void MaterialEnergy<D>::set_simplex(Batch& batch, std::size_t lane, std::size_t 
   }
 }
 
+/// Copies the gradients of a simplex to a lane of another batch.
+template <int D>
+void MaterialEnergy<D>::copy_gradients(std::size_t simplex, Batch& batch, std::size_t lane) const {
+  const Batch& from = batches_[simplex / Batch::lanes];
+  for (std::size_t k = 0; k < D; ++k) {
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      batch.gradient[k][axis].at[lane] = from.gradient[k][axis].at[simplex % Batch::lanes];
+    }
+  }
+}
+
+/// Returns the gradient of a corner's shape function. Those of all corners add up to 0.
+template <int D>
+auto MaterialEnergy<D>::gradient(std::size_t simplex, std::size_t corner) const -> Vector {
+  const Batch& batch = batches_[simplex / Batch::lanes];
+  Vector result;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    for (std::size_t k = corner == 0 ? 1 : corner; k <= (corner == 0 ? D : corner); ++k) {
+      const double of_corner = batch.gradient[k - 1][axis].at[simplex % Batch::lanes];
+      result[int(axis)] += corner == 0 ? -of_corner : of_corner;
+    }
+  }
+  return result;
+}
+
 /// Turns the table of links by cell into one of cells by link.
 template <int D>
-void MaterialEnergy<D>::find_cell_links() {
+void MaterialEnergy<D>::find_cell_links(const Progress& progress) {
   first_cell_.assign(mesh_->link_count() + 1, 0);
   for (const LinkId link : cells_.links) {
     ++first_cell_[link + 1];
@@ -105,6 +133,7 @@ void MaterialEnergy<D>::find_cell_links() {
   std::vector<std::uint32_t> next(first_cell_.begin(), first_cell_.end() - 1);
   cell_beside_.resize(cells_.links.size());
   for (std::uint32_t cell = 0; cell < cells_.cell_count(); ++cell) {
+    progress.report(cell, cells_.cell_count());
     for (const LinkId link : cells_.links_of(cell)) {
       cell_beside_[next[link]++] = cell;
     }
@@ -112,13 +141,14 @@ void MaterialEnergy<D>::find_cell_links() {
 }
 
 template <int D>
-void MaterialEnergy<D>::set_material(const ElasticOptions& elastic) {
+void MaterialEnergy<D>::set_material(const ElasticOptions& elastic, const Progress& progress) {
   lame_ = lame({1, elastic.material.poisson});
   is_neo_hookean_ = elastic.law.kind == StrainLaw::Kind::neo_hookean;
   density_ = ExtendedDensity(elastic.law, lame_, D);
   scale_ = 1;
   double sum = 0;
   for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    progress.report(link, mesh_->link_count());
     sum += std::max(0.0, stiffness_around(link)) / mesh_->link_count();
   }
   scale_ = sum > 0 && std::isfinite(sum) ? sum : 1;
@@ -223,11 +253,12 @@ double MaterialEnergy<D>::add_changes(const Vectors& displacements, Vectors& for
     for (std::uint32_t s = first_simplex_[cell]; s < first_simplex_[cell + 1]; ++s) {
       const std::size_t lane = corners.size() / (D + 1) % Batch::lanes;
       Batch& batch = lane == 0 ? batches.emplace_back() : batches.back();
-      set_simplex(batch, lane, s);
+      copy_gradients(s, batch, lane);
       batch.volume.at[lane] = (is_whole_[cell] != 0 ? 1 : -1) * cells_.simplices.volumes[s] / scale_;
-      for (auto& corner : batch.corner) {
-        corners.push_back(corner[lane]);
-        corner[lane] = std::uint32_t(corners.size() - 1);
+      const auto of_simplex = cells_.simplices.corners_of(s);
+      for (std::size_t k = 0; k <= D; ++k) {
+        batch.corner[k][lane] = std::uint32_t(corners.size());
+        corners.push_back(of_simplex[k]);
       }
     }
   }
@@ -260,8 +291,8 @@ double MaterialEnergy<D>::stiffness_around(LinkId link) const {
       const auto corners = cells_.simplices.corners_of(s);
       const auto a = std::ranges::find(corners, i), b = std::ranges::find(corners, j);
       if (a != corners.end() && b != corners.end()) {
-        const auto gradients = cells_.simplices.gradients_of(s);
-        sum -= cells_.simplices.volumes[s] * gradients.col(a - corners.begin()).dot(gradients.col(b - corners.begin()));
+        const Vector one = gradient(s, std::size_t(a - corners.begin()));
+        sum -= cells_.simplices.volumes[s] * one.dot(gradient(s, std::size_t(b - corners.begin())));
       }
     }
   }
@@ -280,7 +311,7 @@ double MaterialEnergy<D>::weight(LinkId link) const {
 
 /// Divides the batches into parts that are worth a thread. Their corners become places in their part.
 template <int D>
-void MaterialEnergy<D>::divide() {
+void MaterialEnergy<D>::divide(const Progress& progress) {
   constexpr std::size_t worth = 1024, most = 8;
   const std::size_t count = std::clamp<std::size_t>(batches_.size() / worth, 1, most);
   parts_.assign(count, {});
@@ -290,6 +321,7 @@ void MaterialEnergy<D>::divide() {
     part.last = batches_.size() * (p + 1) / count;
     part.low = mesh_->element_count();
     const std::size_t end = std::min(part.last * Batch::lanes, cells_.simplices.count());
+    progress.report(double(p) / double(count));
     for (std::size_t s = part.first * Batch::lanes; s < end; ++s) {
       const auto corners = cells_.simplices.corners_of(s);
       part.low = std::min(part.low, std::ranges::min(corners));

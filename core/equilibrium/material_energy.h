@@ -34,8 +34,9 @@ class MaterialEnergy {
 
   /// Makes the cells of a mesh, none cut. Throws Cancelled.
   void build(MeshPointer mesh, const Progress& progress = {});
-  /// Sets Poisson's ratio and the law. Young's modulus does not move a minimum. Changes all weights.
-  void set_material(const ElasticOptions& elastic);
+  /// Sets Poisson's ratio and the law. Young's modulus does not move a minimum. Changes all weights. Throws Cancelled;
+  /// call it again then.
+  void set_material(const ElasticOptions& elastic, const Progress& progress = {});
   /// Removes and restores cells. Returns the links whose weights changed, ascending. Costs as much as there are cuts.
   std::vector<LinkId> set_cuts(const Cuts& cuts);
 
@@ -74,8 +75,8 @@ class MaterialEnergy {
     BatchSum sum;
   };
 
-  void find_cell_links();
-  void divide();
+  void find_cell_links(const Progress& progress);
+  void divide(const Progress& progress);
   void evaluate(Part& part, const Vectors& displacements, bool wants_force) const;
   std::vector<std::uint32_t> take_cuts(const Cuts& cuts, std::vector<LinkId>& changed);
   void update_loose(const Cuts& cuts, std::span<const std::uint32_t> cells, std::vector<LinkId> changed);
@@ -84,10 +85,12 @@ class MaterialEnergy {
   void set_volume(std::uint32_t simplex, bool is_whole);
   double stiffness_around(LinkId link) const;
   void set_simplex(Batch& batch, std::size_t lane, std::size_t simplex) const;
+  void copy_gradients(std::size_t simplex, Batch& batch, std::size_t lane) const;
+  Vector gradient(std::size_t simplex, std::size_t corner) const;
   BatchDensity batch_density() const { return {is_neo_hookean_, lame_, &density_}; }
 
   MeshPointer mesh_;
-  CellSimplices cells_;
+  CellSimplices cells_;                                  // without gradients: the batches have them
   std::vector<std::uint32_t> first_simplex_;             // of each cell, and the end
   std::vector<std::uint32_t> first_cell_, cell_beside_;  // of each link: the cells that need it
   std::vector<std::uint8_t> is_whole_;                   // of each cell

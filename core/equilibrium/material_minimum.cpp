@@ -28,12 +28,14 @@ void MaterialMinimum<D, Steps>::begin(const MeshPointer& mesh, const Progress& p
 }
 
 template <int D, class Steps>
-void MaterialMinimum<D, Steps>::set_material(const ElasticOptions& elastic) {
-  energy_.set_material(elastic);
+void MaterialMinimum<D, Steps>::set_material(const ElasticOptions& elastic, const Progress& progress) {
+  energy_.set_material(elastic, progress.part(0, 0.5));
+  const Progress weighing = progress.part(0.5, 1);
   for (LinkId link = 0; link < weights_.size(); ++link) {
+    weighing.report(link, weights_.size());
     weights_[link] = energy_.weight(link);
-    preconditioner_.set_link(link, weights_[link]);
   }
+  preconditioner_.set_links(weights_);
   regions_.clear();
   forget();
 }

@@ -25,7 +25,8 @@ class EnergyMinimum {
 
   virtual void begin(const MeshPointer& mesh, const Progress& progress) = 0;
   virtual bool has_begun() const = 0;
-  virtual void set_material(const ElasticOptions& elastic) = 0;
+  /// Throws Cancelled; call it again then.
+  virtual void set_material(const ElasticOptions& elastic, const Progress& progress) = 0;
   virtual void set_cuts(const Cuts& cuts) = 0;
   /// Sets whether an element is fixed, unless it is already so.
   virtual void set_fixed(ElementId element, bool fixed) = 0;
@@ -94,7 +95,7 @@ class MaterialMinimum final : public EnergyMinimum<D> {
 
   void begin(const MeshPointer& mesh, const Progress& progress) override;
   bool has_begun() const override { return has_begun_; }
-  void set_material(const ElasticOptions& elastic) override;
+  void set_material(const ElasticOptions& elastic, const Progress& progress) override;
   void set_cuts(const Cuts& cuts) override;
   void set_fixed(ElementId element, bool fixed) override;
   void forget() override;

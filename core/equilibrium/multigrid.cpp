@@ -23,6 +23,7 @@ class Multigrid<Matrix>::Levels {
 
   Levels(const Matrix& matrix, const Progress& progress) {
     finest_.build_smoother(matrix);
+    progress.report(0);
     std::uint32_t count = finest_.aggregate(matrix, element_frames(matrix.mesh()));
     add_level(finest_, matrix, progress);
     while (!is_coarsest(count)) {

@@ -100,6 +100,7 @@ class MultigridStage {
     std::vector<std::uint32_t> rows(matrix.size()), all(members_.size());
     std::iota(rows.begin(), rows.end(), 0U);
     std::iota(all.begin(), all.end(), 0U);
+    progress.report(0.8);
     set_coarse_rows(rows, all, coarse);
     release_products();
   }

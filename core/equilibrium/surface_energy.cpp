@@ -165,7 +165,7 @@ void SurfaceEnergy::find_pulls() {
   }
 }
 
-void SurfaceEnergy::set_material(const ElasticOptions& elastic) {
+void SurfaceEnergy::set_material(const ElasticOptions& elastic, const Progress& progress) {
   lame_ = lame({1, elastic.material.poisson});
   poisson_ = elastic.material.poisson;
   thickness_ = thickness_of(*mesh_, elastic);
@@ -174,6 +174,7 @@ void SurfaceEnergy::set_material(const ElasticOptions& elastic) {
   scale_ = 1;
   double sum = 0;
   for (LinkId link = 0; link < mesh_->link_count(); ++link) {
+    progress.report(link, mesh_->link_count());
     sum += std::max(0.0, stiffness_around(link)) / mesh_->link_count();
   }
   scale_ = sum > 0 && std::isfinite(sum) ? sum : 1;

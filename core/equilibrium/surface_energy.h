@@ -32,7 +32,7 @@ class SurfaceEnergy {
 
   /// Makes the triangles of a mesh, none cut. Throws Cancelled.
   void build(MeshPointer mesh, const Progress& progress = {});
-  void set_material(const ElasticOptions& elastic);
+  void set_material(const ElasticOptions& elastic, const Progress& progress = {});
   /// Removes and restores triangles. Returns the links whose weights changed, ascending.
   std::vector<LinkId> set_cuts(const Cuts& cuts);
 

@@ -47,6 +47,7 @@ class MaterialTest : public QObject {
   void positions_that_are_set_end_a_drag();
   void no_iteration_raises_the_energy();
   void a_change_of_the_material_moves_the_minimum();
+  void what_was_cancelled_is_prepared_later();
   void a_cut_gives_the_minimum_of_the_cut_object();
   void a_cut_changes_the_energy_by_its_cells_data();
   void a_cut_changes_the_energy_by_its_cells();
@@ -559,6 +560,42 @@ void MaterialTest::a_change_of_the_material_moves_the_minimum() {
   const std::vector<double> right = scene.finite_elements(by);
   QVERIFY(relative_error(positions_of(body), right, *scene.mesh) < 1e-6);
   QVERIFY(relative_error(before, right, *scene.mesh) > 1e-3);
+}
+
+/// Cancels at each place where the work can be cancelled: while all is prepared, and after a change of the material.
+void MaterialTest::what_was_cancelled_is_prepared_later() {
+  Scene scene(block(MeshKind::tetra, 6));
+  const std::vector<double> by{0.8, -0.6, 0.3};
+  int cancelled = 0;
+  const auto solve = [&](int reports) {
+    Body body = scene.body();
+    body.set_positions(scene.moved(by));
+    const auto solver = EquilibriumSolver::make(3);
+    for (const double poisson : {0.3, 0.45}) {
+      body.set_elastic({Material{1, poisson}});
+      Progress work;
+      work = Progress::watched([&, left = reports](double, const std::string&) mutable {
+        if (--left == 0) {
+          work.cancel();
+        }
+      });
+      try {
+        solver->iterate(body, scene.handle, work);
+      } catch (const Cancelled&) {
+        ++cancelled;
+      }
+      solver->solve(body, scene.handle, 1e-9, 1000);
+    }
+    return positions_of(body);
+  };
+  const std::vector<double> right = solve(0);
+  QCOMPARE(cancelled, 0);
+  int last = -1;
+  for (int reports = 1; last != cancelled; ++reports) {
+    last = cancelled;
+    QVERIFY2(relative_error(solve(reports), right, *scene.mesh) < 1e-6, std::to_string(reports).c_str());
+  }
+  QVERIFY(cancelled > 15);
 }
 
 void MaterialTest::a_cut_gives_the_minimum_of_the_cut_object() {
