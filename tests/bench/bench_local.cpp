@@ -1,6 +1,7 @@
-// Measures relaxation that is fine only where needed (equilibrium/local_relaxation.h) against the equilibrium of all
-// elements: bench_local [KIND [SCALE [fast]]] drags a patch of a block, or a whole side, for 60 frames, with a cut in
-// between; fast without the comparison. KIND is patch, side, jitter, poisson, or a file with tetrahedra.
+// Measures relaxation that is fine only where needed (equilibrium/local_relaxation.h), relaxation of all elements and
+// quasi-Newton FEM against the equilibrium of all elements: bench_local [KIND [SCALE [fast]]] drags a patch of a block,
+// or a whole side, for 60 frames, with a cut in between; fast only the first, without the comparison. KIND is patch,
+// side, jitter, poisson, or a file with tetrahedra.
 
 #include <algorithm>
 #include <array>
@@ -18,6 +19,7 @@
 #include "mesh/layers.h"
 #include "mesh/refine.h"
 #include "mesh/scattered.h"
+#include "solver/algorithms.h"
 
 namespace chainmail::bench {
 namespace {
@@ -109,16 +111,21 @@ class Dragged {
 
   Body& body() { return body_; }
   std::span<const ElementId> held() const { return scene_.held; }
-  /// Moves the handle on; cuts in the middle. A hand is not steady.
+  static bool is_cut_at(int frame) { return frame == frames / 2 + 1; }
+  /// Where the handle is in a frame, from rest. A hand is not steady.
+  std::array<double, 3> way(int i) const {
+    const double t = double(i) / frames;
+    const auto shake = [&](std::uint64_t k) { return 0.002 * random_of(std::uint64_t(i) * 3 + k + 1000); };
+    return {scene_.far * (0.25 * std::sin(2 * pi * t) + shake(0)),
+            scene_.far * (0.2 * (1 - std::cos(pi * t)) + shake(1)),
+            scene_.far * (0.95 * t * t * (3 - 2 * t) + 0.02 * t + shake(2))};
+  }
+  /// Moves the handle on; cuts in the middle.
   void frame(int i) {
     if (i > frames / 2 && body_.cuts().count() == 0) {
       body_.cut(scene_.wound);
     }
-    const double t = double(i) / frames;
-    const auto shake = [&](std::uint64_t k) { return 0.002 * random_of(std::uint64_t(i) * 3 + k + 1000); };
-    const std::array<double, 3> by{scene_.far * (0.25 * std::sin(2 * pi * t) + shake(0)),
-                                   scene_.far * (0.2 * (1 - std::cos(pi * t)) + shake(1)),
-                                   scene_.far * (0.95 * t * t * (3 - 2 * t) + 0.02 * t + shake(2))};
+    const std::array<double, 3> by = way(i);
     body_.with_view([&]<class View>(const View& view) {
       if constexpr (View::Dimension == 3) {
         for (const ElementId e : scene_.held) {
@@ -148,9 +155,14 @@ std::vector<double> displacements(const Body& body) {
 struct Error {
   double all = 0, moved = 0, largest = 0;  // relative; of elements that moved by 10 % of the handle; per handle's way
 };
-Error compare(const std::vector<double>& is, const std::vector<double>& should, double far) {
+/// `is_held`: by a cell, of each element. Methods differ in where they leave the others.
+Error compare(const std::vector<double>& is, const std::vector<double>& should,
+              const std::vector<std::uint8_t>& is_held, double far) {
   double e = 0, u = 0, em = 0, um = 0, most = 0;
   for (std::size_t i = 0; i < is.size(); i += 3) {
+    if (is_held[i / 3] == 0) {
+      continue;
+    }
     double d = 0, s = 0;
     for (std::size_t k = i; k < i + 3; ++k) {
       d += std::pow(is[k] - should[k], 2);
@@ -172,14 +184,35 @@ double at_fraction(std::vector<double> values, double fraction) {
   return values[std::min(values.size() - 1, std::size_t(fraction * double(values.size())))];
 }
 
+/// Returns whether a cell without a cut link has each element, after the drag.
+std::vector<std::uint8_t> held_by_cells(const Scene& scene) {
+  std::vector<std::uint8_t> is_cut(scene.mesh->link_count(), 0), is_held(scene.mesh->element_count(), 0);
+  for (const LinkId link : scene.wound) {
+    is_cut[link] = 1;
+  }
+  for (const auto& cell : scene.mesh->tetrahedra) {
+    bool is_whole = true;
+    for (std::size_t a = 0; a < 4; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        is_whole = is_whole && is_cut[*find_link(*scene.mesh, cell[a], cell[b])] == 0;
+      }
+    }
+    for (std::size_t a = 0; is_whole && a < 4; ++a) {
+      is_held[cell[a]] = 1;
+    }
+  }
+  return is_held;
+}
+
 struct Reference {
+  std::vector<std::uint8_t> is_held;
   std::vector<int> frame;
   std::vector<std::vector<double>> at;
 };
 
 Reference solve(const Scene& scene, int every) {
   Dragged dragged(scene);
-  Reference result;
+  Reference result{held_by_cells(scene), {}, {}};
   int iterations = 0;
   for (int i = every; i <= frames; i += every) {
     dragged.frame(i);
@@ -198,51 +231,130 @@ Reference solve(const Scene& scene, int every) {
   return result;
 }
 
+/// Times and errors of a method along a drag.
+class Tally {
+ public:
+  explicit Tally(const Scene& scene, const Reference& reference) : scene_(scene), reference_(reference) {}
+
+  /// Measures the processor time of a frame.
+  template <class Frame>
+  void time(int i, Frame frame) {
+    const auto start = std::clock();
+    frame();
+    ms_.push_back(double(std::clock() - start) * 1e3 / CLOCKS_PER_SEC);
+    cut_ = Dragged::is_cut_at(i) ? ms_.back() : cut_;
+  }
+  /// Compares the displacements of a frame, if the reference has it. Returns the relative error then, or 0.
+  template <class Displacements>
+  double compare_frame(int i, Displacements displacements) {
+    if (next_ == reference_.frame.size() || reference_.frame[next_] != i) {
+      return 0;
+    }
+    const Error error = compare(displacements(), reference_.at[next_], reference_.is_held, scene_.far);
+    worst_ = {std::max(worst_.all, error.all), std::max(worst_.moved, error.moved),
+              std::max(worst_.largest, error.largest)};
+    mean_ += error.all / double(reference_.frame.size());
+    ++next_;
+    return error.all;
+  }
+  void print() const {
+    const std::vector later(ms_.begin() + 1, ms_.end());
+    std::printf("rms %.3f worst %.3f moved %.3f max %.3f | ms first %.1f median %.2f p90 %.2f most %.2f cut %.1f",
+                mean_, worst_.all, worst_.moved, worst_.largest, ms_[0], at_fraction(later, 0.5),
+                at_fraction(later, 0.9), at_fraction(later, 1), scene_.wound.empty() ? 0.0 : cut_);
+  }
+
+ private:
+  const Scene& scene_;
+  const Reference& reference_;
+  std::vector<double> ms_;
+  double mean_ = 0, cut_ = 0;
+  Error worst_;
+  std::size_t next_ = 0;
+};
+
 void drag(const Scene& scene, const Reference& reference, const LocalRelaxation::Options& options) {
   Dragged dragged(scene);
   const auto begin = std::clock();
   LocalRelaxation relaxation(dragged.body(), options);
   const double building = double(std::clock() - begin) * 1e3 / CLOCKS_PER_SEC;
-  std::vector<double> ms;
-  double nodes = 0, tetrahedra = 0, written = 0, iterations = 0, least = 1, cut = 0, lowest = 1e9, highest = 0,
-         mean = 0;
-  Error worst;
-  std::size_t next = 0;
+  Tally tally(scene, reference);
+  double nodes = 0, tetrahedra = 0, written = 0, iterations = 0, least = 1, lowest = 1e9, highest = 0;
   for (int i = 1; i <= frames; ++i) {
     dragged.frame(i);
-    const auto start = std::clock();
-    const auto result = relaxation.update(dragged.body(), dragged.held());
-    ms.push_back(double(std::clock() - start) * 1e3 / CLOCKS_PER_SEC);
+    LocalRelaxation::Result result;
+    tally.time(i, [&] { result = relaxation.update(dragged.body(), dragged.held()); });
     nodes += double(result.nodes) / frames;
     tetrahedra += double(result.tetrahedra) / frames;
     written += double(relaxation.moved().size()) / frames;
     iterations += double(result.iterations) / frames;
     least = std::min(least, result.least_ratio);
-    cut = i == frames / 2 + 1 ? ms.back() : cut;
-    if (next < reference.frame.size() && reference.frame[next] == i) {
+    const double error = tally.compare_frame(i, [&] {
       relaxation.finish(dragged.body());
-      const Error error = compare(displacements(dragged.body()), reference.at[next], scene.far);
-      worst = {std::max(worst.all, error.all), std::max(worst.moved, error.moved),
-               std::max(worst.largest, error.largest)};
-      mean += error.all / double(reference.frame.size());
-      if (result.estimate) {
-        lowest = std::min(lowest, *result.estimate / error.all);
-        highest = std::max(highest, *result.estimate / error.all);
-      }
-      ++next;
+      return displacements(dragged.body());
+    });
+    if (result.estimate && error > 0) {
+      lowest = std::min(lowest, *result.estimate / error);
+      highest = std::max(highest, *result.estimate / error);
     }
   }
-  std::printf(
-      "  theta %-4g widest 1/%-4.3g tol %-6g| rms %.3f worst %.3f moved %.3f max %.3f | ms first %.1f median %.2f p90 "
-      "%.2f "
-      "most %.2f cut %.1f | %.0f nodes %.0f tets %.0f written %.1f its, J %.2f | built in %.0f ms\n",
-      options.theta, 1 / options.widest, options.tolerance, mean, worst.all, worst.moved, worst.largest, ms[0],
-      at_fraction(std::vector(ms.begin() + 1, ms.end()), 0.5), at_fraction(std::vector(ms.begin() + 1, ms.end()), 0.9),
-      at_fraction(std::vector(ms.begin() + 1, ms.end()), 1), scene.wound.empty() ? 0.0 : cut, nodes, tetrahedra,
-      written, iterations, least, building);
+  std::printf("  theta %-4g widest 1/%-4.3g tol %-6g| ", options.theta, 1 / options.widest, options.tolerance);
+  tally.print();
+  std::printf(" | %.0f nodes %.0f tets %.0f written %.1f its, J %.2f | built in %.0f ms\n", nodes, tetrahedra, written,
+              iterations, least, building);
   if (options.has_twin) {
     std::printf("    with the twin; estimate/error %.2f to %.2f\n", lowest, highest);
   }
+}
+
+/// Drags with iterations for all elements. The first frame prepares them.
+void drag_all(const Scene& scene, const Reference& reference, int iterations) {
+  Dragged dragged(scene);
+  const auto solver = EquilibriumSolver::make(3, false);
+  Tally tally(scene, reference);
+  for (int i = 1; i <= frames; ++i) {
+    dragged.frame(i);
+    tally.time(i, [&] { solver->solve(dragged.body(), dragged.held(), 0.01, iterations); });
+    tally.compare_frame(i, [&] { return displacements(dragged.body()); });
+  }
+  std::printf("  all elements, up to %d iterations a frame | ", iterations);
+  tally.print();
+  std::printf("\n");
+}
+
+/// Makes the solver, and holds the handle from rest.
+std::unique_ptr<ElasticSolver> make_quasi_newton(const Body& body, const Scene& scene, int iterations) {
+  ElasticProblem problem{scene.mesh, body.cuts(), scene.pins, std::vector<double>(3 * scene.pins.size(), 0.0), {}};
+  problem.options.material.poisson = scene.poisson;
+  problem.options.iterations = std::uint32_t(iterations);
+  auto solver = make_elastic(Algorithm::quasi_newton, problem);
+  const std::vector<double> none(3 * scene.held.size(), 0.0);
+  solver->hold({scene.held, none, none}, {});
+  return solver;
+}
+
+/// Drags with quasi-Newton FEM. The first frame and the cut prepare it: its matrix is factored.
+void drag_quasi_newton(const Scene& scene, const Reference& reference, int iterations) {
+  Dragged dragged(scene);
+  std::unique_ptr<ElasticSolver> solver;
+  Tally tally(scene, reference);
+  for (int i = 1; i <= frames; ++i) {
+    dragged.frame(i);
+    tally.time(i, [&] {
+      if (!solver || Dragged::is_cut_at(i)) {
+        const std::vector<double> before = solver ? solver->displacements() : std::vector<double>();
+        solver = make_quasi_newton(dragged.body(), scene, iterations);
+        if (!before.empty()) {
+          solver->start_from(before);
+        }
+      }
+      solver->move(ElasticMotion::by(dragged.way(i)), {});
+    });
+    tally.compare_frame(i, [&] { return solver->displacements(); });
+  }
+  std::printf("  quasi-Newton FEM, up to %d iterations a frame | ", iterations);
+  tally.print();
+  std::printf("\n");
 }
 
 void run(const Scene& scene, int every) {
@@ -251,6 +363,12 @@ void run(const Scene& scene, int every) {
   drag(scene, reference, {.has_twin = true});
   drag(scene, reference, {.theta = 1});
   drag(scene, reference, {.tolerance = 0.005});
+  if (every > 0) {
+    drag_all(scene, reference, 1);
+    drag_all(scene, reference, 20);
+    drag_quasi_newton(scene, reference, 1);
+    drag_quasi_newton(scene, reference, 20);
+  }
 }
 
 /// Runs a block of a kind. `every`: the frames between comparisons, 0 for none.
