@@ -27,6 +27,7 @@ class Test:
         self.folder = pathlib.Path(self.place).name
         self.environment = dict(line.split("=", 1) for line in properties.get("ENVIRONMENT", []))
         self.limit = properties.get("TIMEOUT", 300)  # seconds
+        self.is_long = "long" in properties.get("LABELS", [])  # not run with every change
         self.seconds = seconds.get(self.name, 5)
         self.lock = threading.Lock()
         self.functions = None  # those that pass without a fault
@@ -61,7 +62,8 @@ class Suite:
         shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         known = recorded_seconds(build.root)
         tests = [Test(described, known) for described in json.loads(shown)["tests"]]
-        self.tests = [test for test in tests if test.program() and (not programs or test.program() in programs)]
+        self.tests = [test for test in tests if test.program() and not test.is_long and
+                      (not programs or test.program() in programs)]
 
     def run(self, test, home, limit, functions=(), **variables):
         """Returns whether a test passes, or some of its functions, and its output."""
