@@ -48,6 +48,10 @@ void Simulation::prepare(ElementId element) {
   }
 }
 
+bool Simulation::prepare_relaxation() {
+  return relaxation_on_ && info(algorithm()).relaxes() && deformer_.prepare_relaxation();
+}
+
 void Simulation::apply(const Command& command) {
   if (!is_one_of<commands::Drag, commands::Relaxed>(command)) {
     complete_relaxation();

@@ -71,6 +71,8 @@ class Simulation {
   void set_threads(int threads) { deformer_.set_threads(threads); }
   /// Prepares a drag of an element, in idle time: see Deformer::prepare. Nothing happens while something is grabbed.
   void prepare(ElementId element);
+  /// Prepares relaxation in idle time that is fine only where needed: see Deformer::prepare_relaxation.
+  bool prepare_relaxation();
   /// Sets the trace that receives every candidate that a pass processes; null: none.
   void set_trace(Trace* trace) { trace_ = trace; }
   /// Runs sweeps or iterations of relaxation at once, even if relaxation is off: see Deformer::relax.

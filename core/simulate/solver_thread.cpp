@@ -95,7 +95,7 @@ void SolverThread::add(Task task, const SliceNote& note) {
       throw;
     }
     overrulers_ += more;
-    work_.cancel(work_.cancelled() || overrulers_ > 0 || preparing_);
+    work_.cancel(work_.cancelled() || overrulers_ > 0 || preparing_ != Preparation::none);
     posted_ += std::size_t(count);
     waiting_.fetch_add(count, std::memory_order_release);
   }
@@ -116,7 +116,7 @@ void SolverThread::prepare(std::optional<ElementId> element) {
     next_grabbed_ = element;
     is_prepared_ = false;
     pointed_at_ = Clock::now();
-    work_.cancel(work_.cancelled() || preparing_);
+    work_.cancel(work_.cancelled() || preparing_ == Preparation::drag);
   }
   changed_.notify_one();
 }
@@ -233,6 +233,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   overrulers_ -= overrules(task) ? 1 : 0;
   sweeping_ = is_one_of<Relax, Relaxed>(std::get_if<Command>(&task));
   is_prepared_ = is_prepared_ && std::holds_alternative<Question>(task);
+  is_relaxation_prepared_ = false;
   const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
   work_.cancel(stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut);
   return task;
@@ -274,6 +275,9 @@ void SolverThread::take_turn(std::unique_lock<std::mutex>& lock, const std::stop
     lock.unlock();
     announce_idle();
     lock.lock();
+    return;
+  } else if (is_still && measured_ && !is_relaxation_prepared_) {
+    prepare_relaxation(lock);
     return;
   } else if (is_still && measured_) {
     wait_for_news(lock, stop);
@@ -338,25 +342,42 @@ PassTimes::Clock::time_point SolverThread::time_to_prepare() const {
 
 /// Prepares the drag of the element under the pointer. The caller must hold the lock.
 void SolverThread::prepare_next(std::unique_lock<std::mutex>& lock) {
-  const ElementId element = *next_grabbed_;
-  preparing_ = is_prepared_ = true;
+  is_prepared_ = true;
+  const auto prepare = [this, element = *next_grabbed_] {
+    simulation_.prepare(element);
+    return true;
+  };
+  if (!run_preparation(lock, Preparation::drag, prepare)) {
+    is_prepared_ = false;
+    pointed_at_ = Clock::now();
+  }
+}
+
+/// Prepares relaxation of the object as it is, once after each task: that may also have cancelled it. The caller must
+/// hold the lock.
+void SolverThread::prepare_relaxation(std::unique_lock<std::mutex>& lock) {
+  is_relaxation_prepared_ = true;
+  run_preparation(lock, Preparation::relaxation, [this] { return simulation_.prepare_relaxation(); });
+}
+
+/// Runs a preparation, which returns whether it counts. Returns false if it was cancelled. The caller must hold the
+/// lock.
+template <class Prepare>
+bool SolverThread::run_preparation(std::unique_lock<std::mutex>& lock, Preparation kind, Prepare prepare) {
+  preparing_ = kind;
   work_.cancel(abandoned_.load());
   lock.unlock();
   bool is_cancelled = false;
   try {
-    simulation_.prepare(element);
-    prepared_.fetch_add(1, std::memory_order_release);
+    prepared_.fetch_add(prepare() ? 1 : 0, std::memory_order_release);
   } catch (const Cancelled&) {
     is_cancelled = true;
   } catch (...) {
     // The move will fail, too, and say so.
   }
   lock.lock();
-  preparing_ = false;
-  if (is_cancelled) {
-    is_prepared_ = false;
-    pointed_at_ = Clock::now();
-  }
+  preparing_ = Preparation::none;
+  return !is_cancelled;
 }
 
 void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {

@@ -54,9 +54,10 @@ class SolverThread {
   void pause(bool on);
   /// Names the element that the next drag will probably grab, if any. Its drag is prepared when the solver has had
   /// nothing to do for a while, and again after commands. A command, a question or another element ends a preparation
-  /// at once.
+  /// at once. Relaxation that is fine only where needed is prepared without an element, and another one does not end
+  /// that.
   void prepare(std::optional<ElementId> element);
-  /// Returns the number of preparations that ended, also of those that had nothing to do.
+  /// Returns the number of preparations that ended, also of those of drags that had nothing to do.
   int prepared() const { return prepared_.load(std::memory_order_acquire); }
   /// Calls `question` on the solver's thread, after everything posted before. It must not block. What it throws is
   /// reported as an error. When the solver ends, it answers the remaining questions for the current object.
@@ -84,6 +85,7 @@ class SolverThread {
 
  private:
   using Job = std::function<void(Simulation&)>;
+  enum class Preparation { none, drag, relaxation };
   using Task = std::variant<Command, Job, Question>;
 
   void add(Task task, const SliceNote& note = {});
@@ -105,6 +107,9 @@ class SolverThread {
   void measure_later(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool must_prepare() const { return next_grabbed_ && !is_prepared_; }
   void prepare_next(std::unique_lock<std::mutex>& lock);
+  void prepare_relaxation(std::unique_lock<std::mutex>& lock);
+  template <class Prepare>
+  bool run_preparation(std::unique_lock<std::mutex>& lock, Preparation kind, Prepare prepare);
   PassTimes::Clock::time_point time_to_prepare() const;
   void rest(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void answer_questions(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
@@ -145,7 +150,8 @@ class SolverThread {
   std::optional<ElementId> next_grabbed_;      // see prepare()
   PassTimes::Clock::time_point pointed_at_{};  // when it was named, or the last preparation was cancelled
   bool is_prepared_ = false;                   // its drag
-  bool preparing_ = false;
+  bool is_relaxation_prepared_ = false;
+  Preparation preparing_ = Preparation::none;  // what is being prepared
   std::string error_;
 
   std::atomic<int> waiting_ = 0;  // number of tasks that are not done

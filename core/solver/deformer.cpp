@@ -255,6 +255,14 @@ void Deformer::prepare(ElementId element) {
   }
 }
 
+bool Deformer::prepare_relaxation() {
+  if (!is_local_ || !LocalRelaxation::is_for(body_)) {
+    return false;
+  }
+  const RunningPass running;
+  return build_local();
+}
+
 void Deformer::wake(std::span<const ElementId> elements) {
   relaxation_.wake(body_, elements);
   awake_at_ = body_.revisions().positions;
@@ -396,13 +404,19 @@ bool Deformer::may_follow(std::span<const ElementId> held) const {
   return is_local_ && has_changed_ && !held.empty() && LocalRelaxation::is_for(body_);
 }
 
+/// Builds what relaxation that is fine only where needed has for the object, unless it is built.
+bool Deformer::build_local() {
+  if (local_ && local_->is_of(body_)) {
+    return false;
+  }
+  local_ = std::make_shared<LocalRelaxation>(body_, LocalRelaxation::Options{.has_twin = true}, progress_);
+  return true;
+}
+
 /// Runs iterations that are fine only where needed.
 RelaxationResult Deformer::follow(std::span<const ElementId> held) {
-  const bool is_new = !local_ || !local_->is_of(body_);
   try_equilibrate([&] {
-    if (is_new) {
-      local_ = std::make_shared<LocalRelaxation>(body_, LocalRelaxation::Options{.has_twin = true}, progress_);
-    }
+    const bool is_new = build_local();
     const LocalRelaxation::Result result = local_->update(body_, held);
     // The steps are not known: the object has not settled.
     local_slice_ = {body_.mesh().element_count(), true, std::numeric_limits<double>::infinity(), {}, is_new};

@@ -100,6 +100,9 @@ class Deformer {
   /// Prepares the first move of an element, for idle time: it will be as fast as a later one if it moves the whole
   /// object. Changes no result. Throws Cancelled; a later call then starts again.
   void prepare(ElementId element);
+  /// Prepares the first iteration that is fine only where needed, for idle time: see set_relaxation(). Changes no
+  /// result. Returns true if there was something to do. Throws Cancelled; a later call then starts again.
+  bool prepare_relaxation();
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   std::string remark() const { return method_ ? method_->remark() : std::string(); }
   /// The elements that the last pass moved, in order of update, without the handle.
@@ -181,6 +184,7 @@ class Deformer {
   template <class Solve>
   RelaxationResult equilibrate(std::span<const ElementId> held, Solve solve);
   bool may_follow(std::span<const ElementId> held) const;
+  bool build_local();
   RelaxationResult follow(std::span<const ElementId> held);
   RelaxationResult end_following();
   void forget_local();

@@ -2,6 +2,7 @@
 
 #include "core/scenarios.h"
 #include "core/threads.h"
+#include "mesh/layers.h"
 #include "mesh/progress.h"
 #include "program.h"
 
@@ -39,6 +40,7 @@ class PreparingTest : public QObject {
   void can_be_cancelled();
   void a_thread_prepares_what_it_is_told();
   void a_thread_prepares_nothing_between_commands();
+  void relaxation_is_prepared_before_its_handle_moves();
 };
 
 void PreparingTest::changes_no_bit() {
@@ -190,6 +192,37 @@ void PreparingTest::a_thread_prepares_nothing_between_commands() {
   const int prepared = solver.prepared() - 1;
   // A machine that pauses gives it time. It waits for 80 ms without a command.
   QVERIFY2(prepared <= (std::chrono::steady_clock::now() - start) / 80ms, qPrintable(QString::number(prepared)));
+}
+
+/// Relaxation that is fine only where needed has nothing left to build at the first move, and no result shows it.
+void PreparingTest::relaxation_is_prepared_before_its_handle_moves() {
+  const MeshPointer mesh = generate({MeshKind::tetra, {18, 18, 18}, 1, {}});
+  const Softness open{{0, 3, 2}, {}, EnergyKind::material};
+  const commands::SetRelaxation on{true, 1, RelaxationScheme::equilibrium, false, true};
+  const ElementId handle = mesh->element_count() - 1;
+  std::vector<std::vector<double>> ends;
+  for (const bool prepares : {false, true}) {
+    const auto solver = solver_of(mesh, Algorithm::exact, open);
+    solver->body().pin(layer(*mesh, *find_side("left")));
+    solver->set_relaxation(RelaxationScheme::equilibrium, true);
+    QCOMPARE(prepares && solver->prepare_relaxation(), prepares);
+    QVERIFY(!prepares || !solver->prepare_relaxation());
+    solver->wake_all();
+    move_by(*solver, *mesh, handle, Point(0, 0, 2));
+    QCOMPARE(solver->relax_slice(1, Deformer::elements_per_slice, std::array{handle}).has_prepared, !prepares);
+    ends.push_back(positions_of(*solver, *mesh));
+  }
+  QVERIFY(ends[0] == ends[1]);
+
+  // A thread does it when it has nothing else to do, and again for another object.
+  SolverThread solver(mesh, Algorithm::exact, [] {});
+  solver.post(commands::SetSoftness{open});
+  QVERIFY(wait_until([&] { return solver.settled(); }));
+  QCOMPARE(solver.prepared(), 0);
+  solver.post(on);
+  QVERIFY(wait_until([&] { return solver.prepared() == 1; }));
+  solver.post(commands::ReplaceMesh{generate({MeshKind::tetra, {17, 18, 18}, 1, {}})});
+  QVERIFY(wait_until([&] { return solver.prepared() == 2; }));
 }
 
 CHAINMAIL_TEST(PreparingTest)
