@@ -335,6 +335,11 @@ void OpenMeshTest::what_others_hold_and_we_do_not_is_refused_data() {
   QTest::newRow("cloud.vtk") << vtk + "POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\n"
                              << "it contains points without links; ";
   QTest::newRow("cloud.off") << QByteArray("OFF\n2 0 0\n0 0 0\n1 1 1\n") << "it contains points without links; ";
+  for (const char* name : {"headless.off", "OF.off", "OFFx.off", "other.off"}) {
+    const QByteArray head = name == std::string("headless.off") ? QByteArray() : QByteArray(name).chopped(4) + '\n';
+    QTest::newRow(name) << head + "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+                        << "it does not begin with OFF; ";
+  }
 }
 
 void OpenMeshTest::what_others_hold_and_we_do_not_is_refused() {

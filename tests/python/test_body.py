@@ -136,3 +136,16 @@ def test_what_a_body_looks_like():
     assert repr(body.mesh) == "<Mesh: surface of 36 elements and 60 links along xy>"
     with pytest.raises(chainmail.Error, match="precision 'half': there is no such value; use float or double"):
         chainmail.Body(body.mesh, "half")
+
+
+def test_the_frame_of_the_object():
+    flat = chainmail.make_grid(9, 4)
+    angle = np.radians(30)
+    turned = flat.rest_positions()[:, :2] @ np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    body = chainmail.Body(chainmail.make_mesh(turned, flat.links, space_dimension=2))
+    assert body.set_frame_of_object()
+    axis, degrees = body.frame.axis, body.frame.degrees
+    assert (axis[2] * degrees) % 90 == pytest.approx(30)
+    body = chainmail.Body(chainmail.make_grid(5, 5))
+    assert not body.set_frame_of_object()
+    assert body.frame.degrees == 0

@@ -78,6 +78,16 @@ def test_a_trace_is_the_candidates_in_order():
     assert deformer.trace().shape == (0, 3)
 
 
+def test_another_deformer_of_a_body_begins_without_a_trace():
+    body = chainmail.Body(chainmail.make_line(3))
+    deformer = chainmail.Deformer(body, "generalized")
+    deformer.set_tracing(True)
+    deformer.move(0, (-5,))
+    assert len(deformer.trace()) > 0
+    del deformer
+    assert chainmail.Deformer(body, "generalized").trace().shape == (0, 3)
+
+
 def test_relaxation_to_the_equilibrium():
     deformer = chainmail.Deformer(bar())
     deformer.move(44, (5, 3, 2))
