@@ -7,6 +7,7 @@
 #include <QLabel>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTableWidget>
@@ -14,9 +15,11 @@
 #include <QToolTip>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "common/icons.h"
 #include "document/edits.h"
+#include "mesh/layers.h"
 #include "window.h"
 #include "window/docks.h"
 
@@ -184,6 +187,12 @@ class WindowDocks : public QObject {
     QVERIFY(of(bench, name) != standard);
     reset->click();
     QCOMPARE(of(bench, name), standard);
+    slider->setValue(slider->maximum() / 4);
+    const double quarter = spin->value();
+    reset->click();
+    spin->setValue(quarter);
+    QVERIFY2(std::abs(slider->value() - slider->maximum() / 4) <= slider->maximum() / 100,
+             qPrintable(QString::number(slider->value())));
   }
 
   void energy() {
@@ -423,6 +432,41 @@ class WindowDocks : public QObject {
     bench.trigger("undo");
     QVERIFY(!residual->isHidden() && !step->isEnabled());
     QCOMPARE(scheme->currentText(), QStringLiteral("equilibrium"));
+  }
+
+  void theMeshDockHasButtonsForFiles() {
+    Workbench bench;
+    const auto* dock = bench.find<QDockWidget>("meshDock");
+    for (const QString& text : {QStringLiteral("Open…"), QStringLiteral("Save…")}) {
+      const auto buttons = dock->findChildren<QPushButton*>();
+      const auto found = std::ranges::find_if(buttons, [&](const auto* button) { return button->text() == text; });
+      QVERIFY2(found != buttons.end() && (*found)->isVisible(), qPrintable(text));
+      QVERIFY(dock->rect().contains(QRect((*found)->mapTo(dock, QPoint()), (*found)->size())));
+    }
+  }
+
+  void aPanelSaysHowFarItIsFromTheEquilibrium() {
+    Workbench bench(generate({MeshKind::tetra, {18, 18, 18}, 1, {}}));
+    Document& document = bench.document();
+    const auto* state = bench.find<QLabel>("state0");
+    edits::setPinned(document, layer(*document.mesh(), *find_side("left")), true);
+    edits::setRelaxation(document, {true, 0.01, RelaxationScheme::mean});
+    const auto grab = [&] { document.handle().grab(layer(*document.mesh(), *find_side("right"))); };
+    grab();
+    double far = 0;
+    const auto says = [&](const QString& words) {
+      document.handle().drag(Point(17, 8.5, 8.5 + (far += 0.05)));
+      return state->toolTip().contains(QRegularExpression(words));
+    };
+    QTRY_VERIFY(says(QStringLiteral("relaxing, sweep \\d+")));
+    QVERIFY(!state->toolTip().contains(QStringLiteral("equilibrium")));
+    bench.find<QComboBox>("relaxationScheme")->setCurrentText(QStringLiteral("material"));
+    bench.find<QCheckBox>("relaxationLocal")->click();
+    grab();
+    QTRY_VERIFY(says(QStringLiteral("about \\d+ % from the full equilibrium")));
+    QVERIFY(!state->toolTip().contains(QStringLiteral("relaxing")));
+    document.handle().release();
+    QTRY_VERIFY(!state->toolTip().contains(QStringLiteral("equilibrium")));
   }
 
   /// The two links of a chain contradict each other, so sweeps over links never end there.

@@ -79,6 +79,22 @@ class WindowRate : public QObject {
     QSettings().clear();
   }
 
+  /// The next window begins with what was chosen.
+  void whatIsChosenIsPlottedAtOnce() {
+    for (const bool isFirst : {true, false}) {
+      RateBench bench;
+      const auto length = [&] { return bench.end() - bench.plot().x.ends->front(); };
+      const auto title = [&] { return QString::fromStdString(bench.plot().title); };
+      QTRY_COMPARE(length(), isFirst ? 10.0 : 60.0);
+      QCOMPARE(title(),
+               isFirst ? QStringLiteral("Time of a pass (ms)") : QStringLiteral("Painted frames per second (1/s)"));
+      bench.set("rateSpan", 60);
+      QCOMPARE(length(), 60.0);
+      bench.set("rateQuantity", QStringLiteral("painted"));
+      QCOMPARE(title(), QStringLiteral("Painted frames per second (1/s)"));
+    }
+  }
+
   void aPlotStandsStillWhereItIsPausedOrNothingHappens() {
     RateBench bench;
     QVERIFY(bench.shakeUntilShown());

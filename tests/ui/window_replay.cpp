@@ -428,12 +428,16 @@ class WindowReplay : public QObject {
 
   void aFilmThatIsGivenUpLeavesNothing_data() {
     QTest::addColumn<bool>("isCancelled");
-    QTest::newRow("cancelled") << true;
-    QTest::newRow("the object is changed") << false;
+    QTest::addColumn<bool>("changes");
+    QTest::newRow("cancelled") << true << false;
+    QTest::newRow("the object is changed") << false << true;
+    QTest::newRow("a view is clicked") << false << false;
   }
 
+  /// And so does the next one.
   void aFilmThatIsGivenUpLeavesNothing() {
     QFETCH(bool, isCancelled);
+    QFETCH(bool, changes);
     Workbench bench;
     work(bench);
     bench.settle();
@@ -441,20 +445,24 @@ class WindowReplay : public QObject {
     RawFilms films;
     QSignalSpy failed(dock(bench), &ReplayDock::failed);
     QDir().mkpath(QFileInfo(films.film()).path());
-    dock(bench)->saveFilm(films.film());
-    QTRY_VERIFY(bench.window.jobs().running() && bench.window.jobs().share() > 0);
-    if (isCancelled) {
-      bench.window.jobs().cancel();
-    } else {
-      edits::setPinned(bench.document(), {5}, true);
+    for (int film = 1; film <= 2; ++film) {
+      dock(bench)->saveFilm(films.film());
+      QTRY_VERIFY(bench.window.jobs().running() && bench.window.jobs().share() > 0);
+      if (isCancelled) {
+        bench.window.jobs().cancel();
+      } else if (changes) {
+        edits::setPinned(bench.document(), {ElementId(4 + film)}, true);
+      } else {
+        QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, QPoint(2, 2));
+      }
+      QTRY_VERIFY(!bench.document().moves().isFilming());
+      bench.settle();
+      QCOMPARE(failed.size(), isCancelled ? 0 : film);
+      QTRY_VERIFY(!bench.window.jobs().running());
+      QVERIFY(films.files().isEmpty());
+      QVERIFY(shapes(bench) == live);
+      QCOMPARE(bench.document().pins().size(), std::size_t(changes ? 1 + film : 1));
     }
-    QTRY_VERIFY(!bench.document().moves().isFilming());
-    bench.settle();
-    QCOMPARE(failed.size(), isCancelled ? 0 : 1);
-    QTRY_VERIFY(!bench.window.jobs().running());
-    QVERIFY(films.files().isEmpty());
-    QVERIFY(shapes(bench) == live);
-    QCOMPARE(bench.document().pins().size(), isCancelled ? 1U : 2U);
   }
 
   void aVideoShowsEveryMoveInItsOrder() {

@@ -32,6 +32,7 @@ class MaterialTest : public QObject {
   void the_energy_equals_finite_elements();
   void instructions_change_no_bit();
   void batches_have_the_density_of_single_simplices();
+  void a_tetrahedron_has_the_energy_of_its_formula();
   void a_slice_of_a_long_body_is_a_sheet_of_another_ratio();
   void the_minimum_equals_finite_elements_data();
   void the_minimum_equals_finite_elements();
@@ -330,6 +331,31 @@ void MaterialTest::batches_have_the_density_of_single_simplices() {
       check_density<2>(poisson, size);
       check_density<3>(poisson, size);
     }
+  }
+}
+
+/// μ/2 (I₁ − 3) − μ ln J + λ/2 ln² J, to the last digits: the logarithm of batches is our own.
+void MaterialTest::a_tetrahedron_has_the_energy_of_its_formula() {
+  const Lame moduli = lame({1, 0.49});
+  const ExtendedDensity extended({}, moduli, 3);
+  SimplexBatch<3> batch{};
+  batch.volume.at[0] = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    batch.corner[k + 1].fill(std::uint32_t(k + 1));
+    batch.gradient[k][k].at.fill(1);
+  }
+  for (int i = 80; i < 160; ++i) {
+    const double stretch = i / 100.0, logarithm = std::log(stretch * stretch * stretch);
+    std::vector<FourNumbers> at(4);
+    for (std::size_t k = 0; k < 3; ++k) {
+      at[k + 1].at[k] = stretch - 1;
+    }
+    const double energy =
+        evaluate_batches<3>(std::span(&batch, 1), {true, moduli, &extended}, at.data(), nullptr).energy;
+    const double shape = 1.5 * moduli.mu * (stretch * stretch - 1), turn = moduli.mu * logarithm;
+    const double volume = moduli.lambda / 2 * logarithm * logarithm;
+    const double largest = std::max({std::abs(shape), std::abs(turn), volume});
+    QVERIFY2(std::abs(energy - (shape - turn + volume)) <= 2e-14 * largest, qPrintable(QString::number(stretch)));
   }
 }
 

@@ -27,6 +27,7 @@ class ReportTest : public QObject {
   void a_layout_keeps_all_parts_apart_and_inside();
   void a_drawing_names_what_it_shows();
   void a_page_is_well_formed_and_needs_nothing_else();
+  void a_table_on_a_page_has_all_cells();
   void plots_are_well_formed_files();
   void the_main_table_takes_the_worst();
   void a_refusal_is_one_drag_s();
@@ -205,6 +206,24 @@ void ReportTest::a_page_is_well_formed_and_needs_nothing_else() {
                            "chainmail compare 'a<b", "today", "a compiler", "relax_step"}) {
     QVERIFY2(words.contains(part), part);
   }
+}
+
+void ReportTest::a_table_on_a_page_has_all_cells() {
+  FigureTable table{.caption = "times", .corner = "method"};
+  table.columns = {{"ms", "one"}, {"ms", "next"}};
+  table.rows = {{"a", {"1.5", "20"}, ""}, {"b", {}, "it refuses"}, {"c", {"10", "3.25"}, ""}};
+  std::ostringstream page;
+  write_html(page, table);
+  QXmlStreamReader reader(QString::fromStdString(page.str()));
+  QStringList cells;
+  while (!reader.atEnd()) {
+    if (reader.readNext() == QXmlStreamReader::StartElement && (reader.name() == u"td" || reader.name() == u"th")) {
+      cells << reader.readElementText().simplified();  // without what aligns them
+    }
+  }
+  QVERIFY2(!reader.hasError(), qPrintable(reader.errorString()));
+  cells = cells.mid(cells.indexOf(QStringLiteral("method")));
+  QCOMPARE(cells.join(u'|'), QStringLiteral("method|one|next|a|1.5|20|b|it refuses|c|10|3.25"));
 }
 
 void ReportTest::plots_are_well_formed_files() {
