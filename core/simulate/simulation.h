@@ -55,6 +55,8 @@ class Simulation {
   bool relaxes_in_idle_time() const { return statistics_.relaxing && !repeats_slices_; }
   /// Returns the number of slices so far that were not cancelled.
   std::uint32_t slices() const { return slices_; }
+  /// True if a command should cancel the next slice: see Deformer::lacks_preparation.
+  bool gives_way() const { return deformer_.lacks_preparation(); }
   /// True if the last slice prepared later ones, which are much faster.
   bool has_prepared() const { return prepared_; }
 

@@ -95,7 +95,10 @@ void SolverThread::add(Task task, const SliceNote& note) {
       throw;
     }
     overrulers_ += more;
-    work_.cancel(work_.cancelled() || overrulers_ > 0 || preparing_ != Preparation::none);
+    const bool is_command = std::holds_alternative<Command>(tasks_.back());
+    const bool ends_preparation =
+        preparing_ == Preparation::drag || (preparing_ == Preparation::relaxation && is_command);
+    work_.cancel(work_.cancelled() || overrulers_ > 0 || ends_preparation);
     posted_ += std::size_t(count);
     waiting_.fetch_add(count, std::memory_order_release);
   }
@@ -234,6 +237,7 @@ SolverThread::Task SolverThread::take_task(const std::stop_token& stop) {
   sweeping_ = is_one_of<Relax, Relaxed>(std::get_if<Command>(&task));
   is_prepared_ = is_prepared_ && std::holds_alternative<Question>(task);
   is_relaxation_prepared_ = false;
+  preparing_ = Preparation::none;
   const bool is_cut = sweeping_ && posted_ - tasks_.size() <= sweeps_cut_;
   work_.cancel(stop.stop_requested() || abandoned_ || overrulers_ > 0 || is_cut);
   return task;
@@ -315,7 +319,7 @@ bool SolverThread::may_relax() const {
 
 void SolverThread::relax() {
   const auto end = Clock::now() + relaxation_share;
-  for (bool more = true; more && idle() && Clock::now() < end;) {
+  for (bool more = true; more && Clock::now() < end && begin_slice();) {
     const auto start = Clock::now();
     more = simulation_.continue_relaxation();
     if (!simulation_.has_prepared()) {  // what happens once says nothing about the next slice
@@ -324,6 +328,15 @@ void SolverThread::relax() {
   }
   unseen_ = true;
   measured_ = false;
+}
+
+/// Returns true if no task waits. If the slice would prepare for many seconds what only an object at rest needs, a
+/// command cancels it: the handle must go on.
+bool SolverThread::begin_slice() {
+  const bool gives_way = simulation_.gives_way();
+  const std::lock_guard lock(mutex_);
+  preparing_ = gives_way ? Preparation::relaxation : Preparation::none;  // until the next task
+  return tasks_.empty();
 }
 
 /// Waits for a task, for another element under the pointer, or until its drag must be prepared.

@@ -54,8 +54,7 @@ class SolverThread {
   void pause(bool on);
   /// Names the element that the next drag will probably grab, if any. Its drag is prepared when the solver has had
   /// nothing to do for a while, and again after commands. A command, a question or another element ends a preparation
-  /// at once. Relaxation that is fine only where needed is prepared without an element, and another one does not end
-  /// that.
+  /// at once. Relaxation that is fine only where needed is prepared without an element, and only commands end that.
   void prepare(std::optional<ElementId> element);
   /// Returns the number of preparations that ended, also of those of drags that had nothing to do.
   int prepared() const { return prepared_.load(std::memory_order_acquire); }
@@ -101,6 +100,7 @@ class SolverThread {
   void finish_task();
   void announce_idle();
   void relax();
+  bool begin_slice();
   bool relaxes() const { return !paused_ && simulation_.relaxes_in_idle_time(); }
   bool may_relax() const;
   void wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);

@@ -382,15 +382,25 @@ void Deformer::try_equilibrate(Solve solve) {
   }
 }
 
+bool Deformer::lacks_preparation() const { return is_local_ && !equilibrium_ && LocalRelaxation::is_for(body_); }
+
 /// Runs them for the whole object.
 template <class Solve>
 RelaxationResult Deformer::equilibrate(std::span<const ElementId> held, Solve solve) {
+  const bool is_new = !equilibrium_;
   try_equilibrate([&] {
-    if (!equilibrium_) {
+    if (is_new) {
       equilibrium_ = EquilibriumSolver::make(body_.mesh().space_dimension);
     }
     equilibrium_->set_threads(threads_);
-    solve();
+    try {
+      solve();
+    } catch (const Cancelled&) {
+      if (is_new && is_local_) {
+        equilibrium_.reset();  // a replay does not know of this
+      }
+      throw;
+    }
   });
   if (local_ && held.empty()) {
     local_->release();

@@ -41,6 +41,7 @@ class PreparingTest : public QObject {
   void a_thread_prepares_what_it_is_told();
   void a_thread_prepares_nothing_between_commands();
   void relaxation_is_prepared_before_its_handle_moves();
+  void a_slice_that_gives_way_leaves_no_trace();
 };
 
 void PreparingTest::changes_no_bit() {
@@ -223,6 +224,56 @@ void PreparingTest::relaxation_is_prepared_before_its_handle_moves() {
   QVERIFY(wait_until([&] { return solver.prepared() == 1; }));
   solver.post(commands::ReplaceMesh{generate({MeshKind::tetra, {17, 18, 18}, 1, {}})});
   QVERIFY(wait_until([&] { return solver.prepared() == 2; }));
+}
+
+/// What only an object at rest needs is given up when the handle moves on, at each place where that is possible. The
+/// same moves without the pause end in the same bits.
+void PreparingTest::a_slice_that_gives_way_leaves_no_trace() {
+  const MeshPointer mesh = generate({MeshKind::tetra, {18, 18, 18}, 1, {}});
+  const std::vector<ElementId> handle = layer(*mesh, *find_side("right"));
+  int cancelled = 0;
+  const auto end_of = [&](int reports) {
+    const auto solver = solver_of(mesh, Algorithm::exact, {{0, 3, 2}, {}, EnergyKind::material});
+    solver->body().pin(layer(*mesh, *find_side("left")));
+    solver->set_relaxation(RelaxationScheme::equilibrium, true);
+    solver->wake_all();
+    const auto slice = [&] { solver->relax_slice(1, Deformer::elements_per_slice, handle); };
+    Handle held(solver->body(), handle);
+    for (const double by : {0.5, 1.0}) {
+      solver->move(held, {held.pose().pivot + Point(0, 0, by), Point::Zero()});
+      slice();  // follows the handle
+      slice();  // writes the rest
+      if (by == 0.5 && reports > 0) {
+        Progress work;
+        work = Progress::watched([&, left = reports](double, const std::string&) mutable {
+          if (--left == 0) {
+            work.cancel();
+          }
+        });
+        solver->set_progress(work);
+        try {
+          slice();
+        } catch (const Cancelled&) {
+          ++cancelled;
+        }
+        solver->set_progress({});
+        if (!solver->lacks_preparation()) {
+          return std::vector<double>();  // it was not cancelled
+        }
+      }
+    }
+    slice();
+    return positions_of(*solver, *mesh);
+  };
+  const std::vector<double> right = end_of(0);
+  for (int reports = 1;; reports += 5) {
+    const std::vector<double> end = end_of(reports);
+    if (end.empty()) {
+      break;
+    }
+    QVERIFY2(end == right, std::to_string(reports).c_str());
+  }
+  QVERIFY(cancelled > 5);
 }
 
 CHAINMAIL_TEST(PreparingTest)
