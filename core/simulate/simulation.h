@@ -55,8 +55,10 @@ class Simulation {
   bool relaxes_in_idle_time() const { return statistics_.relaxing && !repeats_slices_; }
   /// Returns the number of slices so far that were not cancelled.
   std::uint32_t slices() const { return slices_; }
+  /// True if the next slice follows the handle: see Deformer::follows_next.
+  bool follows_next() const { return deformer_.follows_next(grabbed()); }
   /// True if a command should cancel the next slice: see Deformer::lacks_preparation.
-  bool gives_way() const { return deformer_.lacks_preparation(); }
+  bool gives_way() const { return !follows_next() && deformer_.lacks_preparation(); }
   /// True if the last slice prepared later ones, which are much faster.
   bool has_prepared() const { return prepared_; }
 

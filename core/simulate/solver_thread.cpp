@@ -18,6 +18,8 @@ constexpr auto frame_time = std::chrono::milliseconds(16);
 constexpr auto relaxation_share = std::chrono::milliseconds(8);
 // While something is grabbed, slices of relaxation that take longer than that wait until no command came for this time.
 constexpr auto pause_of_handle = std::chrono::milliseconds(100);
+// The same for a slice that must first prepare for seconds what the handle does not need.
+constexpr auto rest_of_handle = std::chrono::seconds(1);
 // A drag is prepared when the pointer has rested for this time.
 constexpr auto rest_of_pointer = std::chrono::milliseconds(80);
 // After a failure, the thread waits so long before it tries the same again.
@@ -313,16 +315,24 @@ void SolverThread::answer_questions(std::unique_lock<std::mutex>& lock, const st
 
 /// Returns true if there is something to relax and this does not delay the next move of the handle.
 bool SolverThread::may_relax() const {
-  return relaxes() && (slice_time_ <= relaxation_share || simulation_.grabbed().empty() ||
-                       Clock::now() >= last_command_ + pause_of_handle);
+  return relaxes() && (simulation_.grabbed().empty() || Clock::now() >= last_command_ + pause_before_slice());
+}
+
+/// How long no command must have come before the next slice, while something is grabbed.
+PassTimes::Clock::duration SolverThread::pause_before_slice() const {
+  if (simulation_.gives_way()) {
+    return rest_of_handle;
+  }
+  return simulation_.follows_next() || slice_time_ <= relaxation_share ? Clock::duration::zero() : pause_of_handle;
 }
 
 void SolverThread::relax() {
   const auto end = Clock::now() + relaxation_share;
-  for (bool more = true; more && Clock::now() < end && begin_slice();) {
+  while (Clock::now() < end && may_relax() && begin_slice()) {
     const auto start = Clock::now();
-    more = simulation_.continue_relaxation();
-    if (!simulation_.has_prepared()) {  // what happens once says nothing about the next slice
+    const bool follows = simulation_.follows_next();
+    simulation_.continue_relaxation();
+    if (!follows && !simulation_.has_prepared()) {  // what happens once says nothing about the next slice
       slice_time_ = Clock::now() - start;
     }
   }
@@ -398,8 +408,8 @@ void SolverThread::rest(std::unique_lock<std::mutex>& lock, const std::stop_toke
   if (unseen_ || relaxes()) {
     const auto share = may_relax() ? relaxation_share : frame_time.zero();
     const bool only_waits = !unseen_ && !may_relax();
-    changed_.wait_until(lock, stop, only_waits ? last_command_ + pause_of_handle : last_frame_ + frame_time - share,
-                        has_command);
+    changed_.wait_until(
+        lock, stop, only_waits ? last_command_ + pause_before_slice() : last_frame_ + frame_time - share, has_command);
   } else if (!measured_) {
     measure_later(lock, stop);
   }

@@ -103,6 +103,7 @@ class SolverThread {
   bool begin_slice();
   bool relaxes() const { return !paused_ && simulation_.relaxes_in_idle_time(); }
   bool may_relax() const;
+  PassTimes::Clock::duration pause_before_slice() const;
   void wait_for_news(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   void measure_later(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   bool must_prepare() const { return next_grabbed_ && !is_prepared_; }
@@ -127,7 +128,7 @@ class SolverThread {
   PassTimes::Clock::time_point last_frame_{};
   PassTimes::Clock::time_point next_violation_{};
   PassTimes::Clock::time_point last_command_{};
-  PassTimes::Clock::duration slice_time_{};   // of the last slice of relaxation
+  PassTimes::Clock::duration slice_time_{};   // of the last slice of relaxation that did not follow a handle
   std::atomic<bool> unseen_ = false;          // something changed since the last frame
   std::atomic<std::uint64_t> published_ = 0;  // number of the newest frame
   bool measured_ = false;                     // the last frame shows the violation of the whole mesh

@@ -103,8 +103,10 @@ class Deformer {
   /// Prepares the first iteration that is fine only where needed, for idle time: see set_relaxation(). Changes no
   /// result. Returns true if there was something to do. Throws Cancelled; a later call then starts again.
   bool prepare_relaxation();
-  /// True if a slice for the whole object would first have to prepare that, while slices that are fine only where
-  /// needed follow the handle. A slice that is cancelled then leaves no trace.
+  /// True if the next slice follows the handle, fine only where needed, or writes what the last one left out.
+  bool follows_next(std::span<const ElementId> held) const { return may_follow(held) || follows_; }
+  /// True if slices for the whole object, which come when the handle rests, would first have to prepare that. One that
+  /// is cancelled then leaves no trace.
   bool lacks_preparation() const;
   /// Reason why the last pass did not reach its target or did not converge. Usually empty.
   std::string remark() const { return method_ ? method_->remark() : std::string(); }

@@ -26,7 +26,8 @@ signal.signal(signal.SIGTERM, end_all)
 
 def run(command, folder, environment, seconds=None):
     """Returns the exit status and the output. After the given time, ends the program and all that it started."""
-    limited = ["prlimit", f"--as={MEMORY}", "--core=0", "--", *map(str, command)]
+    # What a shell starts in the background ignores SIGINT, and Python's tests of Ctrl+C would wait for ever.
+    limited = ["env", "--default-signal=INT", "prlimit", f"--as={MEMORY}", "--core=0", "--", *map(str, command)]
     process = subprocess.Popen(limited, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True, errors="replace", start_new_session=True)
     groups.add(process.pid)
