@@ -15,6 +15,7 @@
 #include "equilibrium/equilibrium_solver.h"
 #include "equilibrium/local_relaxation.h"
 #include "files/mesh/open_mesh.h"
+#include "mesh/error.h"
 #include "mesh/generate.h"
 #include "mesh/layers.h"
 #include "mesh/refine.h"
@@ -366,8 +367,12 @@ void run(const Scene& scene, int every) {
   if (every > 0) {
     drag_all(scene, reference, 1);
     drag_all(scene, reference, 20);
-    drag_quasi_newton(scene, reference, 1);
-    drag_quasi_newton(scene, reference, 20);
+    try {
+      drag_quasi_newton(scene, reference, 1);
+      drag_quasi_newton(scene, reference, 20);
+    } catch (const chainmail::Error& error) {
+      std::printf("  %s\n", error.what());
+    }
   }
 }
 
