@@ -14,6 +14,8 @@ namespace {
 
 // Iterations over all elements of smaller objects are fast.
 constexpr std::size_t worth_cells = 20'000;
+// Volumes of larger objects are not finite (mesh units).
+constexpr double largest_extent = 1e100;
 // Valid regions from these numbers on hardly bind.
 constexpr double open_stretch = 3, open_shear = 2;
 // The error of a twin of half the resolution is four times as large, so the difference is three times the error.
@@ -30,9 +32,9 @@ bool LocalRelaxation::is_for(const Body& body) {
   const Softness& softness = body.softness();
   const std::size_t cells = mesh.has_cells() ? mesh.tetrahedra.size() + mesh.hexahedra.size() : mesh.element_count();
   return mesh.space_dimension == 3 && has_solid_cells(mesh) && cells >= worth_cells &&
-         softness.energy == EnergyKind::material && softness.links.empty() && softness.global.compression <= 0 &&
-         softness.global.stretch >= open_stretch && softness.global.shear >= open_shear &&
-         body.elastic().law.kind == StrainLaw::Kind::neo_hookean;
+         (mesh.box[1] - mesh.box[0]).maxCoeff() < largest_extent && softness.energy == EnergyKind::material &&
+         softness.links.empty() && softness.global.compression <= 0 && softness.global.stretch >= open_stretch &&
+         softness.global.shear >= open_shear && body.elastic().law.kind == StrainLaw::Kind::neo_hookean;
 }
 
 LocalRelaxation::LocalRelaxation(const Body& body, const Options& options, const Progress& progress)

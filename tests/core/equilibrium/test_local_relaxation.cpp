@@ -40,6 +40,7 @@ class LocalRelaxationTest : public QObject {
   void it_starts_where_the_object_is();
   void parts_far_apart_take_as_much_memory_as_near_ones();
   void flat_cells_do_not_count();
+  void an_object_whose_volume_is_no_number_is_left_to_others();
 };
 
 namespace {
@@ -462,6 +463,15 @@ void LocalRelaxationTest::parts_far_apart_take_as_much_memory_as_near_ones() {
     const Scene scene(mesh, Point(8, 4, 4), 1.6, 1);
     const auto at = dragged(scene).at;
     QVERIFY(std::ranges::all_of(at, [](double one) { return std::isfinite(one); }));
+  }
+}
+
+void LocalRelaxationTest::an_object_whose_volume_is_no_number_is_left_to_others() {
+  for (const double size : {1e80, 1e120, 1e307}) {
+    const MeshPointer mesh = carved(
+        {18, 18, 18}, [](const Point&) { return true; },
+        [size](const Point& at, ElementId) -> Point { return size * at; });
+    QCOMPARE(LocalRelaxation::is_for(Scene(mesh, Point::Zero(), 1, 1).body()), size < 1e100);
   }
 }
 
