@@ -24,6 +24,7 @@ struct Frame {
   /// it needs all blocks.
   std::vector<std::uint64_t> changed;
   Statistics statistics;
+  bool is_at_rest = true;  // all elements are known to be
   std::uint64_t number = 0;
   /// Id of the series of frames. Frame numbers of different series cannot be compared: a reader needs all blocks after
   /// the series has changed.

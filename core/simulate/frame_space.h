@@ -21,8 +21,6 @@ class FrameSpace {
   Point into(const Point& point) const { return (point - origin_) / unit_; }
   Point out_of(const Point& point) const { return origin_ + unit_ * point; }
 
-  /// Converts coordinates (mesh units), space_dimension for each point.
-  void into(std::span<const double> coordinates, std::span<float> out) const { move(coordinates, unit_, out); }
   /// Copies the positions of elements from `first` on, space_dimension coordinates each.
   void copy(const Body& body, ElementId first, std::span<float> out) const { copy(body, first, unit_, out); }
   /// The same about the origin of frames, but in mesh units.
@@ -33,6 +31,7 @@ class FrameSpace {
   bool operator==(const FrameSpace& other) const { return origin_ == other.origin_ && unit_ == other.unit_; }
 
  private:
+  /// Converts coordinates (mesh units), space_dimension for each point.
   void move(std::span<const double> coordinates, double unit, std::span<float> out) const;
   void copy(const Body& body, ElementId first, double unit, std::span<float> out) const;
 

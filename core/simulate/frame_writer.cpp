@@ -66,6 +66,7 @@ void FrameWriter::fill(Frame& frame, ElementBlocks& pending, Simulation& simulat
   });
   pending.clear();
   frame.statistics = simulation.statistics();
+  frame.is_at_rest = simulation.body().is_at_rest();
   frame.statistics.relaxing = simulation.relaxes_in_idle_time();
   simulation.begin_frame();
   frame.number = number_;

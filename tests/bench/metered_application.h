@@ -1,7 +1,9 @@
 #pragma once
 
 #include <QApplication>
+#include <QByteArray>
 #include <QEvent>
+#include <QMetaEnum>
 #include <QSet>
 #include <algorithm>
 
@@ -45,6 +47,7 @@ class MeteredApplication : public QApplication {
 
   double drawingMilliseconds = 0;  // processor time of this thread
   double longestMilliseconds = 0;  // of an event without drawing, since it was set to 0
+  QByteArray longestEvent;         // its type
   double longestDrawing = 0;       // ms, since it was set to 0
   int framesDrawn = 0;             // updates of the window that drew at least one view
   int viewPaints = 0;
@@ -56,7 +59,10 @@ class MeteredApplication : public QApplication {
     const double before = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID), drawn = drawingMilliseconds;
     const bool handled = QApplication::notify(receiver, event);
     const double own = cpu_milliseconds(CLOCK_THREAD_CPUTIME_ID) - before - (drawingMilliseconds - drawn);
-    longestMilliseconds = std::max(longestMilliseconds, own);
+    if (own > longestMilliseconds) {
+      longestMilliseconds = own;
+      longestEvent = QMetaEnum::fromType<QEvent::Type>().valueToKey(event->type());
+    }
     return handled;
   }
 

@@ -187,17 +187,8 @@ bool Panel::hasMoved(const Statistics& statistics) {
     passesBefore_ = statistics.passes;
   }
   const MoveHistory& history = document_.moves().history();  // a session brings moves that this solver has not made
-  if (statistics.passes != passesBefore_ || document_.cuts().count() > 0 || history.passes(history.position()) > 0) {
-    return true;
-  }
-  if (frame.number != movedNumber_ || frame.series != movedSeries_) {
-    movedNumber_ = frame.number;
-    movedSeries_ = frame.series;
-    std::vector<float> rest(frame.positions.size());
-    frame.space.into(frame.mesh->rest, rest);
-    moved_ = frame.positions != rest;
-  }
-  return moved_;
+  return statistics.passes != passesBefore_ || document_.cuts().count() > 0 || history.passes(history.position()) > 0 ||
+         !frame.is_at_rest;
 }
 
 /// Returns the RMS violation of the panel where it is largest.

@@ -82,9 +82,6 @@ class Panel : public QFrame {
   QElapsedTimer busy_;     // runs since the solver has been working without a new frame
   bool answered_ = false;  // true if a frame came since the algorithm, the object or the handle changed
   bool grabbed_ = false;
-  // The result of hasMoved() for a frame.
-  std::uint64_t movedNumber_ = 0, movedSeries_ = 0;
-  bool moved_ = false;
   MeshPointer movedMesh_;           // the object of the last frame
   std::uint64_t passesBefore_ = 0;  // of its solver, before it had this object
 };

@@ -282,6 +282,12 @@ void PanelArea::followObject() {
   if (!dragged_ || document_.handle().isActive() || !document_.solvers().settled()) {
     return;
   }
+  // A part at a time, so that the window stays responsive.
+  if (fits() &&
+      !std::ranges::all_of(panels_, [](Panel* one) { return one->isHidden() || one->view().prepareSearch(); })) {
+    QTimer::singleShot(0, this, &PanelArea::followObject);
+    return;
+  }
   dragged_ = false;
   if (fits() && !showsAll()) {
     frame(false);

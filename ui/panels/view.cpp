@@ -246,11 +246,14 @@ void View::wheelEvent(QWheelEvent* event) {
   }
 }
 
-/// Shows what is under the cursor. After a large move the boxes are computed first, a part at a time, so that the
-/// window stays responsive.
+bool View::prepareSearch() const {
+  const Frame* frame = document_.solvers().frame(panel_);
+  return frame == nullptr || search_.prepare(*frame, boxMilliseconds);
+}
+
+/// Shows what is under the cursor, once the search is ready.
 void View::searchUnderCursor() {
-  if (const Frame* frame = document_.solvers().frame(panel_);
-      frame != nullptr && !search_.prepare(*frame, boxMilliseconds)) {
+  if (!prepareSearch()) {
     hover_.start(0);
   } else if (tool_ != nullptr) {
     tool_->hover(*this, cursor_);

@@ -118,6 +118,9 @@ class View : public QOpenGLWidget {
   // For tools and overlays. Positions in the view are in logical pixels from its top left corner.
   /// Finds elements, links and faces.
   const ViewSearch& search() const { return search_; }
+  /// Prepares the search for the newest frame, and showsAll(), for some milliseconds. Returns true if they are ready:
+  /// after a large move of a large object, this takes several calls.
+  bool prepareSearch() const;
   /// Lets the tool hover at the cursor, when there is time: after a large move, the search may take some.
   void hoverSoon() { hover_.start(0); }
   /// Returns the position of an element in the newest frame (mesh units).
