@@ -47,6 +47,7 @@ void RampCommandTest::json_csv_and_a_plot() {
   QCOMPARE(options["budget"].toDouble(), 3600.0);
   QCOMPARE(options["precision"].toString(), QString("double"));
   QCOMPARE(options["stretch"].toDouble(), 1.5);
+  QCOMPARE(options["largest"].toInt(), 36);
   const auto origin = json["origin"].toObject();
   QVERIFY(origin["command_line"].toString().startsWith("chainmail ramp --largest 36 "));
   QVERIFY(!origin["processor"].toString().isEmpty() && origin["version"].toString().startsWith("chainmail "));

@@ -217,6 +217,18 @@ class DrawnIndices : public QObject {
     QCOMPARE(parts.step(), 1U);
   }
 
+  void nearlyAsMuchIsDrawnAsTheSceneAllows() {
+    Scene scene({MeshKind::cloth, {150, 150, 1}, 1, {}});
+    const Cuts none(scene.frame.mesh);
+    DrawnParts parts(std::make_shared<MeshLevels>());
+    parts.setFrame(scene.frame, none);
+    for (const std::size_t most : {std::size_t{60'000}, std::size_t{20'000}, std::size_t{5'000}, std::size_t{1'200}}) {
+      choose(parts, scene, {}, most);
+      const std::size_t drawn = parts.faces().size() / 3 + parts.links().ends.size() / 2;
+      QVERIFY2(drawn <= most && drawn >= most / 5, qPrintable(QStringLiteral("%1 of %2").arg(drawn).arg(most)));
+    }
+  }
+
   void fewElementsAreAllKeptAndManyThinnedEvenly() {
     std::vector<ElementId> elements(10'000);
     std::iota(elements.begin(), elements.end(), ElementId{500});

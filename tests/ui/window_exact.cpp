@@ -68,12 +68,18 @@ class WindowExact : public QObject {
     QTest::addColumn<int>("deep");    // the axis along the line of sight
     QTest::addColumn<int>("across");  // the axis that runs to the right, with its sign
     QTest::addColumn<int>("sign");
-    QTest::newRow("front") << "viewFront" << 2 << 0 << 1;
-    QTest::newRow("back") << "viewBack" << 2 << 0 << -1;
-    QTest::newRow("right") << "viewRight" << 0 << 2 << -1;
-    QTest::newRow("left") << "viewLeft" << 0 << 2 << 1;
-    QTest::newRow("top") << "viewTop" << 1 << 0 << 1;
-    QTest::newRow("bottom") << "viewBottom" << 1 << 0 << 1;
+    QTest::addColumn<QString>("text");
+    QTest::addColumn<QString>("textWithZUp");
+    const auto row = [](const char* view, int deep, int across, int sign, const char* text, const char* textWithZUp) {
+      QTest::newRow(view) << view << deep << across << sign << QString::fromUtf8(text)
+                          << QString::fromUtf8(textWithZUp);
+    };
+    row("viewFront", 2, 0, 1, "From +z (front)", "From +z (top)");
+    row("viewBack", 2, 0, -1, "From −z (back)", "From −z (bottom)");
+    row("viewRight", 0, 2, -1, "From +x (right)", "From +x (right)");
+    row("viewLeft", 0, 2, 1, "From −x (left)", "From −x (left)");
+    row("viewTop", 1, 0, 1, "From +y (top)", "From +y (back)");
+    row("viewBottom", 1, 0, 1, "From −y (bottom)", "From −y (front)");
   }
   void looksAlongTheAxes() {
     QFETCH(QString, action);
@@ -81,6 +87,11 @@ class WindowExact : public QObject {
     QFETCH(int, across);
     QFETCH(int, sign);
     Workbench bench(block());
+    const auto text = [&] { return bench.find<QAction>(qPrintable(action))->text().remove(QLatin1Char('&')); };
+    QTEST(text(), "text");
+    bench.trigger("upZ");
+    QTEST(text(), "textWithZUp");
+    bench.trigger("upZ");
     bench.trigger("parallelRays");
     bench.trigger(qPrintable(action));
     const std::array strides{1U, 4U, 16U};

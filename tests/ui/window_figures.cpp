@@ -213,6 +213,18 @@ class WindowFigures : public QObject {
     bench.trigger("linkColours");
   }
 
+  void aChosenSizeOfPicturesIsRememberedWithinItsLimits() {
+    const QString key = QStringLiteral("picture/tested");
+    for (const PictureSize& size : {PictureSize{}, PictureSize{1'000, false, 96}, PictureSize{85, true, 600}}) {
+      size.remember(key);
+      QCOMPARE(PictureSize::remembered(key), size);
+    }
+    PictureSize{1e6, false, 96}.remember(key);
+    QCOMPARE(PictureSize::remembered(key).width, 12'000.0);
+    PictureSize{1, true, 96}.remember(key);
+    QCOMPARE(PictureSize::remembered(key).width, 10.0);
+  }
+
   /// An ampersand marks the key of another widget; without one it would be visible.
   void noLabelShowsAnAmpersand() {
     Workbench bench;

@@ -162,6 +162,16 @@ class WindowOpen : public QObject {
     QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
   }
 
+  void aMeshWithoutDefectsIsSaidToHaveNone() {
+    Workbench bench;
+    bench.open(sourceFile("meshes/sphere.obj"));
+    QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
+    bench.trigger("repairMesh");
+    bench.settle();
+    QVERIFY(bench.find<QFrame>("repairBar")->isVisible());
+    QCOMPARE(repairText(bench), QStringLiteral("sphere.obj has no defects to repair"));
+  }
+
   void aSurfaceThatIsTooFineIsToldHowToGetCoarser() {
     Workbench bench;
     bench.open(sourceFile("meshes/sphere.obj"));

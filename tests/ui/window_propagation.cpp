@@ -215,6 +215,23 @@ class WindowPropagation : public QObject {
     QTRY_VERIFY(!bench.find<QAction>("passPlay")->isChecked());
   }
 
+  void followingMayBeSwitchedOffAndOn() {
+    Workbench bench;
+    openAndDrag(bench, {0.05, 0, 0});
+    bench.trigger("passFollow");
+    QVERIFY(!bench.find<QAction>("passFollow")->isChecked());
+    const int steps = slider(bench, 1).maximum();
+    bench.document().handle().grab(middle);
+    bench.document().handle().drag(bench.document().mesh()->rest_position(middle) + Point(4, 3, 0));
+    bench.settle();
+    const int more = int(bench.document().solvers().frame(1)->statistics.last_pass.checked);
+    QVERIFY(more > steps);
+    QCOMPARE(slider(bench, 1).maximum(), steps);
+    bench.trigger("passFollow");
+    QVERIFY(bench.find<QAction>("passFollow")->isChecked());
+    QTRY_COMPARE(slider(bench, 1).maximum(), more);
+  }
+
   void theHandAndEditsLetGoOfThePass() {
     Workbench bench;
     openAndDrag(bench);

@@ -137,7 +137,14 @@ class WindowSelect : public QObject {
     QCOMPARE(spin->value(), 0.3);
     bench.document().selection().set({9, 10, 11});  // links with and without their own softness
     QCOMPARE(spin->value(), 0.8);
-    QVERIFY(bench.find<QLabel>("selectedDescription")->text().contains(QStringLiteral("differs")));
+    const auto description = [&] { return bench.find<QLabel>("selectedDescription")->text(); };
+    QVERIFY(description().contains(QStringLiteral("differs")));
+    QVERIFY2(description().startsWith(QStringLiteral("<b>3</b>\u00a0elements, <b>2</b>\u00a0links")),
+             qPrintable(description()));
+    bench.document().selection().set({10, 11});
+    QVERIFY2(description().startsWith(QStringLiteral("<b>2</b>\u00a0elements, <b>1</b>\u00a0link")) &&
+                 !description().contains(QStringLiteral("1</b>\u00a0links")),
+             qPrintable(description()));
 
     // A slider of all links keeps their own, and is one step.
     auto* slider = bench.find<QSlider>("stretchSlider");

@@ -1,7 +1,11 @@
 // Tests the display of volumes in a real window: outer surface, links, and what a cut uncovers.
 
+#include <QFile>
+#include <QTemporaryDir>
+
 #include "common/colours.h"
 #include "document/edits.h"
+#include "io/pictures.h"
 #include "io/sessions.h"
 #include "mesh/split.h"
 #include "window.h"
@@ -33,6 +37,19 @@ double groundAbout(Workbench& bench, ElementId element, int reach = 60) {
     }
   }
   return double(ground) / (4.0 * reach * reach);
+}
+
+/// Returns the number of shapes in a vector picture of the first panel.
+qsizetype vectorShapes(Workbench& bench) {
+  const QTemporaryDir folder;
+  const QString path = folder.filePath(QStringLiteral("panel.svg"));
+  writeDrawing(path, drawingOf(bench.window.panel(0), false));
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly)) {
+    return 0;
+  }
+  const QByteArray text = file.readAll();
+  return text.count("<polyline") + text.count("<path") + text.count("<polygon") + text.count("<line");
 }
 
 QImage picture(Workbench& bench) {
@@ -168,8 +185,12 @@ class WindowSurface : public QObject {
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());
     bench.view(0).zoom(1.0 / 8);
     QTRY_VERIFY(bench.view(0).leavesLinksOut());
+    const qsizetype facesAlone = vectorShapes(bench);
+    QVERIFY(facesAlone > 0);
     bench.trigger("colourBy-shear");  // this colour mode needs the links
     QTRY_VERIFY(!bench.view(0).leavesLinksOut());
+    const qsizetype all = vectorShapes(bench);
+    QVERIFY2(all > facesAlone + 10'000, qPrintable(QStringLiteral("%1, without links %2").arg(all).arg(facesAlone)));
   }
 };
 
