@@ -24,6 +24,7 @@ class MeditTest : public QObject {
   void lines_do_not_matter_data();
   void lines_do_not_matter();
   void each_kind_of_piece_is_read();
+  void a_tetrahedron_of_second_order_is_divided_between_its_middles();
   void a_plane_mesh_has_two_coordinates();
   void other_lists_are_passed_over();
   void wrong_files_are_refused_data();
@@ -58,6 +59,29 @@ void MeditTest::each_kind_of_piece_is_read() {
   QVERIFY(parts.triangles == (std::vector<std::array<ElementId, 3>>{{0, 1, 2}}));
   QCOMPARE(parts.polygons, (std::vector<ElementId>{4, 4, 5, 6, 7}));
   QVERIFY(parts.hexahedra == (std::vector<std::array<ElementId, 8>>{{0, 1, 2, 3, 4, 5, 6, 7}}));
+}
+
+/// Middles stand in the order 12, 23, 31, 14, 24, 34 of the corners (libMeshb). Those on the right edges make eight
+/// parts of one volume.
+void MeditTest::a_tetrahedron_of_second_order_is_divided_between_its_middles() {
+  const MeshParts parts =
+      medit(
+          "MeshVersionFormatted 2 Dimension 3 Vertices 10 0 0 0 1 2 0 0 1 0 2 0 1 0 0 2 1 1 0 0 1 1 1 0 1 0 1 0 1 "
+          "0 0 1 1 1 0 1 1 0 1 1 1 TetrahedraP2 1 1 2 3 4 5 6 7 8 9 10 0 End")
+          .parts;
+  QCOMPARE(parts.tetrahedra.size(), std::size_t{8});
+  for (const auto& [a, b, c, d] : parts.tetrahedra) {
+    const Point at = parts.rest[a];
+    const double volume = (parts.rest[b] - at).cross(parts.rest[c] - at).dot(parts.rest[d] - at) / 6;
+    QVERIFY2(std::abs(volume - 1.0 / 6) < 1e-12, qPrintable(QString::number(volume)));
+    for (const ElementId corner : {a, b, c, d}) {  // its part has the middles of its edges
+      for (const ElementId middle : {a, b, c, d}) {
+        const Point end = 2 * parts.rest[middle] - parts.rest[corner];
+        QVERIFY(corner > 3 || middle == corner ||
+                std::find(parts.rest.begin(), parts.rest.begin() + 4, end) != parts.rest.begin() + 4);
+      }
+    }
+  }
 }
 
 void MeditTest::a_plane_mesh_has_two_coordinates() {
@@ -96,6 +120,9 @@ void MeditTest::wrong_files_are_refused_data() {
                              << "a.mesh:6: '1' stands where a keyword is expected; ";
   QTest::newRow("not finite") << head + "Vertices\n1\n0 nan 0 1\n"
                               << "a.mesh:5: 'nan' is not a valid coordinate; ";
+  QTest::newRow("decimal comma")
+      << head + "Vertices\n1\n0,5 0 0 1\n"
+      << "a.mesh:5: '0,5' is not a valid coordinate; write a decimal point instead of the comma";
   QTest::newRow("corner 0") << two + "Edges\n1\n0 1 1\n"
                             << "a.mesh:9: there is no vertex 0; ";
   QTest::newRow("corner too large")

@@ -56,6 +56,12 @@ void PlyTest::what_is_not_known_is_passed_over() {
                         .parts;
   QCOMPARE(mesh.rest.size(), std::size_t{4});
   QVERIFY(mesh.links == (std::vector<std::array<ElementId, 2>>{{1, 2}}));
+  const auto skipped = [](const std::string& line) {
+    return ply("ply\n" + line + "\n" + head.substr(4) + "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n").skipped;
+  };
+  QCOMPARE(skipped("comment by a scanner"), std::size_t{0});
+  QCOMPARE(skipped("obj_info num_cols 512"), std::size_t{0});
+  QCOMPARE(skipped("by a scanner"), std::size_t{1});
 }
 
 void PlyTest::wrong_files_are_refused_data() {

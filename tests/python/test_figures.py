@@ -117,6 +117,9 @@ def test_calibrate_is_a_dictionary_with_a_table():
     assert report["compression"] == found["softness"].compression
     assert report["residual"]["relative"] == found["errors"]["relative"][2]
     assert chainmail.calibrate(beam(), **options) == found
+    wounded = beam()
+    wounded.cut([link for link, (a, b) in enumerate(wounded.mesh.links) if a % 5 == 2 and b % 5 == 3 and a % 15 < 5])
+    assert chainmail.calibrate(wounded, **options)["errors"]["relative"][0] != found["errors"]["relative"][0]
     other = json.loads(chainmail.calibrate(beam(), seed=2, **options)["json"])
     assert other["options"]["seed"] == 2 and other["drags"] != report["drags"]
 

@@ -4,6 +4,7 @@
 #include <QStandardItemModel>
 
 #include "document/edits.h"
+#include "document/panel_colour.h"
 #include "window.h"
 #include "window/bars.h"
 
@@ -51,6 +52,29 @@ class WindowAlgorithm : public QObject {
     bench.settle();
     // The selector shows the algorithm that runs, for any mesh.
     QCOMPARE(bench.document().solvers().frame(0)->statistics.algorithm, bench.document().algorithm(0));
+  }
+
+  /// The shade of a copy, too, when the other panel runs something else.
+  void theSwatchHasTheColourOfTheObject() {
+    Workbench bench;
+    const auto areRight = [&] {
+      for (int p = 0; p < 2; ++p) {
+        const QList<QLabel*> labels = bench.window.panel(p).findChildren<QLabel*>();
+        const QString wanted = QStringLiteral("background:%1;").arg(QColor(panelColour(bench.document(), p)).name());
+        if (std::ranges::none_of(labels, [&](const QLabel* one) { return one->styleSheet().startsWith(wanted); })) {
+          return false;
+        }
+      }
+      return true;
+    };
+    QVERIFY(areRight());
+    bench.choose(0, "Generalized ChainMail");
+    bench.choose(1, "Generalized ChainMail");
+    const QColor copy = panelColour(bench.document(), 1);
+    QVERIFY(areRight());
+    bench.choose(0, "Exact ChainMail");
+    QVERIFY(panelColour(bench.document(), 1) != copy);
+    QVERIFY(areRight());
   }
 
   void exactStopsWhereThePinsHoldTheHandAndSaysSo() {

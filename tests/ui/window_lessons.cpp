@@ -144,6 +144,7 @@ class WindowLessons : public QObject {
   void eachLessonRunsToItsEndAndBack_data();
   void eachLessonRunsToItsEndAndBack();
   void theBarShowsTheStep();
+  void docksThatWereOpenStayOpen();
   void nextPlaysVisiblyAndASecondNextEndsIt();
   void theViewsStayStillWhileAStepPlaysAndAsTheUserChoseThem();
   void theHandleIsMarkedAfterItsDrag();
@@ -241,6 +242,21 @@ void WindowLessons::theBarShowsTheStep() {
   }
   QVERIFY(!bench.find<QPushButton>("lessonNextButton")->isVisible());
   QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
+}
+
+/// A lesson hides the dock that it has opened, and no other.
+void WindowLessons::docksThatWereOpenStayOpen() {
+  Workbench& bench = shared();
+  auto* dock = bench.find<QDockWidget>("propagationDock");
+  for (const bool wasOpen : {true, false}) {
+    dock->setVisible(wasOpen);
+    bench.settle();
+    open(bench, pathOf("waiting-list.chainmail"));
+    QTRY_VERIFY(dock->isVisible());
+    bench.find<QToolButton>("lessonCloseButton")->click();
+    bench.settle();
+    QCOMPARE(dock->isVisible(), wasOpen);
+  }
 }
 
 void WindowLessons::nextPlaysVisiblyAndASecondNextEndsIt() {

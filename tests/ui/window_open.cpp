@@ -151,6 +151,11 @@ class WindowOpen : public QObject {
       QCOMPARE(bench.document().selection().elements(), ids);
       QCOMPARE(bench.find<QLabel>("repairShown")->text(), QStringLiteral("Selected: %1").arg(QLatin1String(name)));
     }
+    bench.find<QPushButton>("repairLoose")->click();  // the bar forgets what it showed of the object before
+    bench.settle();
+    QVERIFY(!bench.find<QLabel>("repairShown")->isVisible() && bench.find<QLabel>("repairShown")->text().isEmpty());
+    bench.trigger("undo");
+    bench.settle();
     bench.find<QToolButton>("repairClose")->click();
     QVERIFY(!bench.find<QFrame>("repairBar")->isVisible());
     bench.open(sourceFile("meshes/sphere.obj"));

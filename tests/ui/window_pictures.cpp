@@ -3,9 +3,11 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QDoubleSpinBox>
+#include <QFile>
 #include <QPainter>
 #include <QSpinBox>
 #include <QSvgRenderer>
+#include <QTemporaryDir>
 
 #include "common/colours.h"
 #include "document/edits.h"
@@ -66,6 +68,22 @@ class WindowPictures : public QObject {
     bench.settleFigures();
     QCOMPARE(plain(pictureOf(bench.view(0))), plain(bench.view(0).grabFramebuffer()));
     QCOMPARE(plain(pictureOf(bench.window)), plain(bench.window.grab().toImage()));
+  }
+
+  void onlyTheGhostOfAVectorPictureIsSeeThrough() {
+    Workbench bench;
+    bench.dragFar();
+    edits::setPinned(bench.document(), {40}, true);
+    bench.trigger("ghosts");
+    bench.settleFigures();
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("ghost.svg"));
+    writeDrawing(path, drawingOf(bench.view(0), false));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    const QByteArray text = file.readAll(), behind = text.mid(text.lastIndexOf("opacity=\"0.5\""));
+    QVERIFY(behind.size() < text.size());
+    QVERIFY2(behind.count("<g ") > 1, behind);  // solid groups follow
   }
 
   void aTransparentOneIsTheObjectAlone() {

@@ -224,14 +224,17 @@ class WindowRecovery : public QObject {
 
   /// A crash comes before closed windows, and its start does not say when it was.
   void theNewestCrashIsOfferedFirst() {
-    put("1-a.chainmail", "{", 10);
-    put("2-b.closed-7.chainmail", "{", 5);
-    put("3-c.chainmail", "{", 100);
+    put("1-a.chainmail", "{", 1'000);
+    put("2-b.closed-7.chainmail", "{", 500);
+    put("3-c.chainmail", "{", 10'000);
     Workbench bench;
     bench.window.sessions().protect();
     QStringList offered;
     connect(&bench.window.sessions().recoveryBar(), &RecoveryBar::restoreRequested, this,
             [&](const QString& path) { offered << QFileInfo(path).fileName(); });
+    const auto text = [&] { return bench.find<QLabel>("recovery")->text(); };
+    const QDateTime newest = QFileInfo(inFolder("1-a.chainmail")).lastModified();
+    QVERIFY2(text().contains(QLocale().toString(newest, QLocale::ShortFormat)), qPrintable(text()));
     for (int i = 0; i < 3; ++i) {
       bench.find<QPushButton>("restoreWork")->click();
       bench.settle();

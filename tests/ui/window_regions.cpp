@@ -42,6 +42,18 @@ class WindowRegions : public QObject {
     QCOMPARE(bench.view(0).grabFramebuffer(), without);
   }
 
+  void upToEightSelectedElementsHaveTheirs() {
+    Workbench bench;
+    bench.trigger("showValidRegions");
+    const auto note = [&] { return bench.find<QLabel>("state0")->toolTip(); };
+    QTRY_VERIFY(note().contains(QStringLiteral("point at an element")));
+    bench.document().selection().set({0, 1, 2, 3, 4, 5, 6, 7});
+    QTRY_VERIFY2(!note().contains(QStringLiteral("point at")) && !note().contains(QStringLiteral("shown for up to")),
+                 qPrintable(note()));
+    bench.document().selection().set({0, 1, 2, 3, 4, 5, 6, 7, 8});
+    QTRY_VERIFY2(note().contains(QStringLiteral("shown for up to 8 selected elements")), qPrintable(note()));
+  }
+
   void whatLiesOutsideIsMarkedSo() {
     Workbench bench;
     edits::setPinned(bench.document(), {middle + 1}, true);

@@ -378,6 +378,27 @@ class WindowReplay : public QObject {
     QTRY_VERIFY(bench.find<QAction>("replayPlay")->text().contains(QStringLiteral("Play")));
   }
 
+  /// At 5 moves a second, the rest would take three times as long as this waits.
+  void anotherSpeedCountsWhilePlaying() {
+    Workbench bench;
+    const MoveHistory& history = bench.document().moves().history();
+    bench.document().handle().grab(31);
+    for (int move = 1; move <= 150; ++move) {
+      bench.document().handle().drag(bench.document().mesh()->rest_position(31) + Point(0.01 * move, 0, 0));
+      bench.settle();
+    }
+    bench.document().handle().release();
+    bench.settle();
+    go(bench, "replayFirst");
+    auto* speed = bench.find<QComboBox>("replaySpeed");
+    speed->setCurrentIndex(speed->findData(5));
+    bench.trigger("replayPlay");
+    QTRY_VERIFY(history.position() > 0);
+    QVERIFY(history.length() - history.position() > 100);
+    speed->setCurrentIndex(speed->findData(120));
+    QTRY_COMPARE_WITH_TIMEOUT(history.position(), history.length(), 10'000);
+  }
+
   void aFilmShowsEveryMoveAndHasAFile() {
     RawFilms films;
     Workbench bench;

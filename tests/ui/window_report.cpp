@@ -6,6 +6,7 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QMap>
 #include <QRegularExpression>
 #include <QScrollBar>
 
@@ -69,6 +70,32 @@ class WindowReport : public QObject {
     QVERIFY(bench.table().isColumnHidden(bench.table().columnCount() - 1));
     bench.find<QCheckBox>("reportAllFigures")->click();
     QVERIFY(!bench.table().isColumnHidden(bench.table().columnCount() - 1));
+  }
+
+  /// A second run fills a table that is sorted by a figure.
+  void eachRowKeepsItsOwnFigures() {
+    ReportBench bench;
+    bench.run();
+    const auto figures = [&] {
+      QMap<QString, QStringList> all;
+      for (int row = 0; row < bench.table().rowCount(); ++row) {
+        for (int column = 1; column < bench.table().columnCount(); ++column) {
+          const QTableWidgetItem* item = bench.table().item(row, column);
+          all[bench.cellOf(row, 0)] << (item == nullptr ? QString() : item->text());
+        }
+      }
+      return all;
+    };
+    bench.table().sortByColumn(0, Qt::AscendingOrder);
+    const auto first = figures();
+    for (const Qt::SortOrder order : {Qt::AscendingOrder, Qt::DescendingOrder}) {
+      for (int column = 0; column < bench.table().columnCount(); ++column) {
+        bench.table().sortByColumn(column, order);
+        bench.choose("reportDrag", 1);
+        bench.choose("reportDrag", 0);
+        QCOMPARE(figures(), first);
+      }
+    }
   }
 
   void aMarkIsReadWithContestantTimeAndError() {

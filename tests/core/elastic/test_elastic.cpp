@@ -36,6 +36,7 @@ class ElasticTest : public QObject {
   void a_cantilever_bends_as_beams_do();
   void small_moves_are_linear();
   void the_hand_and_the_pins_are_where_they_are();
+  void what_was_held_is_free_again();
   void a_hand_may_lie_on_a_pin();
   void the_order_of_cells_changes_nothing_data();
   void the_order_of_cells_changes_nothing();
@@ -599,6 +600,24 @@ void ElasticTest::the_hand_and_the_pins_are_where_they_are() {
     }
     solver->reset();
     QVERIFY(std::ranges::all_of(solver->displacements(), [](double one) { return one == 0; }));
+  }
+}
+
+void ElasticTest::what_was_held_is_free_again() {
+  const MeshPointer mesh = of_dimension(3);
+  const ElementId first = mesh->element_count() - 1;
+  const std::array<double, 3> by{0.4, 0.3, -0.2};
+  for (const Algorithm method :
+       {Algorithm::linear_fem, Algorithm::neo_hookean, Algorithm::corotational, Algorithm::arap, Algorithm::xpbd,
+        Algorithm::projective, Algorithm::quasi_newton, Algorithm::neo_hookean_xpbd}) {
+    const auto solver = make_elastic(method, pinned(mesh, layer(*mesh, *find_side("left"))));
+    solver->hold(ElasticHandle::of(first));
+    solver->move(ElasticMotion::by(by));
+    solver->hold(ElasticHandle::of(23));
+    for (int move = 0; move < 20; ++move) {
+      solver->move(ElasticMotion::by(std::array{0.0, 0.0, 0.01}));
+    }
+    QVERIFY2(std::abs(solver->displacements()[std::size_t{3} * first]) < 0.5 * by[0], info(method).name.data());
   }
 }
 

@@ -31,6 +31,8 @@ class EquilibriumSolverTest : public QObject {
   void an_invalid_state_is_made_valid();
   void pins_that_contradict_each_other_are_named();
   void a_free_object_follows_the_handle();
+  void pins_that_go_are_free_at_once();
+  void cut_links_have_no_energy();
   void what_is_kept_matches_the_object();
   void a_long_cut_costs_no_iterations();
   void all_levels_follow_a_cut_and_its_undoing();
@@ -279,6 +281,34 @@ void EquilibriumSolverTest::a_free_object_follows_the_handle() {
         QVERIFY2(off < 1e-4, qPrintable(QString::number(off)));
       }
     }
+  }
+}
+
+/// Without another grab: without pins, the object follows the handle without strain.
+void EquilibriumSolverTest::pins_that_go_are_free_at_once() {
+  const auto mesh = make_mesh(MeshKind::cloth, {8, 6, 1});
+  for (const EnergyKind energy : {EnergyKind::isotropic, EnergyKind::corotated}) {
+    const std::vector<ElementId> pins = left_side(*mesh);
+    Dragged dragged(mesh, softness_of(energy, 0.3), pins, mesh->element_count() - 1, Point(2, 0, 0));
+    QVERIFY(dragged.solve(1e-9));
+    const double strained = energy_of(dragged.solver);
+    QVERIFY(strained > 0.1);
+    dragged.solver.body().unpin(pins);
+    dragged.solve(1e-9);
+    QVERIFY2(energy_of(dragged.solver) < 1e-9 * strained, qPrintable(QString::number(energy_of(dragged.solver))));
+  }
+}
+
+void EquilibriumSolverTest::cut_links_have_no_energy() {
+  const auto line = make_mesh(MeshKind::line, {3, 1, 1});
+  Body body(line, Precision::double_precision);
+  body.set_positions(std::vector<double>{0, 1, 4});
+  for (const EnergyKind energy : {EnergyKind::isotropic, EnergyKind::axial, EnergyKind::corotated}) {
+    const Softness softness = softness_of(energy, 0.3);
+    Cuts cuts(line);
+    QVERIFY(elastic_energy(*line, softness, cuts, body.positions()) > 0.1);
+    cuts.cut(*find_link(*line, 1, 2));
+    QCOMPARE(elastic_energy(*line, softness, cuts, body.positions()), 0.0);
   }
 }
 

@@ -30,6 +30,7 @@ class SplitTest : public QObject {
   void a_stroke_around_a_loop_takes_a_piece_out();
   void a_short_stroke_opens_the_side_that_it_crosses();
   void a_stroke_beside_the_object_changes_nothing();
+  void a_stroke_inside_a_triangle_changes_nothing();
   void any_stroke_keeps_the_surface_sound();
   void a_sphere_is_cut_in_two_or_in_front_alone();
   void polygons_stay_polygons();
@@ -275,6 +276,16 @@ void SplitTest::a_stroke_beside_the_object_changes_nothing() {
   QVERIFY(split_along(*mesh, seen(*mesh), Stroke{{50, 50}}, links).empty());
   const MeshPointer grid = generate({MeshKind::cloth, {5, 5, 1}, 1, {}});
   QVERIFY(split_along(*grid, seen(*grid), line_across(0), every_link(*grid)).empty());
+}
+
+/// Nor does one that only reaches the side of another: it separates nothing, so that no face is divided.
+void SplitTest::a_stroke_inside_a_triangle_changes_nothing() {
+  const MeshPointer mesh = regular_sheet(4, 4);
+  const auto links = every_link(*mesh);
+  for (const Stroke& stroke :
+       {Stroke{{22, 22}, {24, 23}}, Stroke{{29, 25}, {29.4, 30.1}}, Stroke{{35, 28.4}, {29.5, 30}}}) {
+    QVERIFY(split_along(*mesh, seen(*mesh), stroke, links).empty());
+  }
 }
 
 void SplitTest::any_stroke_keeps_the_surface_sound() {

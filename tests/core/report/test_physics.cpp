@@ -43,6 +43,7 @@ class PhysicsTest : public QObject {
   void the_truth_has_no_error_and_linear_elasticity_less_for_less();
   void drags_are_what_they_say();
   void turned_objects_show_what_depends_on_the_axes();
+  void objects_are_named_after_their_laws();
   void what_has_no_answer_is_refused_by_name();
   void objects_grow();
   void a_growing_object_has_its_own_number_of_elements();
@@ -92,6 +93,9 @@ void PhysicsTest::errors_by_hand() {
   QCOMPARE(error.moving, std::uint64_t{2});  // 0.01 is half a percent of the handle's displacement
   QVERIFY(std::abs(error.moving_rms - 0.4 / std::sqrt(2.0) / 2) < 1e-15);
   QCOMPARE(error.moving_max, error.max);
+  QCOMPARE(rms_displacement(*line, reference), std::sqrt((4 + 1 + 0.0001) / 4));
+  const ReferenceSolution along_a_diagonal{{3, 4, 3, 4}, 5, {0}};
+  QCOMPARE(rms_displacement(*make_mesh(MeshKind::grid, {2, 1, 1}), along_a_diagonal), 5.0);  // not per coordinate
   QVERIFY(std::abs(error.relative - std::sqrt(0.4 * 0.4 / (2 * 2 + 1 * 1 + 0.01 * 0.01))) < 1e-15);
   // An element counts as moving if it moves by at least 1 % of the handle's displacement, here 0.02.
   for (const auto& [by, moving] : {std::pair(0.019, 2), {0.021, 3}}) {
@@ -426,10 +430,34 @@ void PhysicsTest::turned_objects_show_what_depends_on_the_axes() {
       QVERIFY(of(*all, {algorithm}, turned_45_max) < 1e-4 && of(*all, {algorithm}, turned_90_max) < 1e-4);
     }
   }
+  // A contestant with open regions or calibrated softness has it on the turned object too, whatever the object's own.
+  const Contestant open{.algorithm = Algorithm::exact, .equilibrium = true, .open_regions = true};
+  const auto of_own = [&](const LinkSoftness& own) {
+    const Case bar = pinned_bar(81, Softness{own, {}, standard_energy, {}}, {});
+    Results results{.objects = {info_of(bar)}};
+    add_turned(results, bar, {open}, CompareOptions(), {});
+    return of(results, open, turned_45_max);
+  };
+  QCOMPARE(of_own({0.9, 1.1, 0.05}), of_own({0.5, 2, 0.5}));
   const Case line{"line", "", make_mesh(MeshKind::line, {4, 1, 1}), {}, {0}, {}, {}};
   Results nothing{.objects = {info_of(line)}};
   add_turned(nothing, line, contestants, CompareOptions(), {});
   QVERIFY(nothing.rows.empty());
+}
+
+void PhysicsTest::objects_are_named_after_their_laws() {
+  const std::vector<Case> bar{{"bar", "", make_mesh(MeshKind::line, {4, 1, 1}), {}, {0}, {}, {}}};
+  const StrainLaw plain, gent{.kind = StrainLaw::Kind::gent};
+  const auto names = [&](const std::vector<StrainLaw>& laws) {
+    QStringList all;
+    for (const Case& one : with_laws(bar, laws)) {
+      all << QString::fromStdString(one.name);
+    }
+    return all;
+  };
+  QCOMPARE(names({plain}), QStringList{"bar"});
+  QVERIFY2(names({gent})[0].startsWith("bar, Gent"), qPrintable(names({gent})[0]));
+  QVERIFY(names({plain, gent})[0].startsWith("bar, ") && names({plain, gent})[1] == names({gent})[0]);
 }
 
 void PhysicsTest::what_has_no_answer_is_refused_by_name() {

@@ -167,6 +167,8 @@ void ReportTest::a_layout_keeps_all_parts_apart_and_inside() {
 
 void ReportTest::a_drawing_names_what_it_shows() {
   const Plot plot = error_plot(comparison(), 0, {0, 1}, figures::violation_max);
+  QCOMPARE(QString::fromStdString(plot.good_label), QString("counts as valid"));  // no other error has this threshold
+  QVERIFY(error_plot(comparison(), 0, {0, 1}, figures::exact_distance_max).good_label.empty());
   const auto words_of = [&](const SvgStyle& style) {
     std::ostringstream out;
     write_svg(out, plot, style);
