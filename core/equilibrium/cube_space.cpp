@@ -55,10 +55,10 @@ std::uint32_t CubeSpace::Level::find(const Place& at) const {
   return cube_at[index_of(at, size)];
 }
 
-CubeSpace::CubeSpace(MeshPointer mesh, const Progress& progress) : mesh_(std::move(mesh)) {
+CubeSpace::CubeSpace(MeshPointer mesh, const Cuts& cuts, const Progress& progress) : mesh_(std::move(mesh)) {
   find_tetrahedra();
   find_unit(progress.part(0, 0.1));
-  sort_tetrahedra(progress.part(0.1, 0.3));
+  sort_tetrahedra(cuts, progress.part(0.1, 0.3));
   std::vector<Pair> pairs;
   {
     const std::vector<std::uint32_t> part_of = find_parts(progress.part(0.3, 0.6));
@@ -150,13 +150,16 @@ CubeSpace::Place CubeSpace::place_of(const Point& point) const {
 }
 
 /// Makes the cubes of level 1 that have tetrahedra, and sorts these by cube.
-void CubeSpace::sort_tetrahedra(const Progress& progress) {
+void CubeSpace::sort_tetrahedra(const Cuts& cuts, const Progress& progress) {
   Level& level = levels_[1];
   const std::size_t count = tetrahedra().size();
-  std::vector<std::uint32_t> cube_of(count);
+  std::vector<std::uint32_t> cube_of(count, none);
   level.cube_at.assign(count_of(level.size), none);
   for (std::uint32_t t = 0; t < count; ++t) {
     progress.report(t, count);
+    if (cuts.count() > 0 && is_gone(t, cuts)) {
+      continue;
+    }
     const auto corners = points_of(t);
     const Place at = place_of((corners[0] + corners[1] + corners[2] + corners[3]) / 4);
     std::uint32_t& cube = level.cube_at[index_of(at, level.size)];
@@ -166,6 +169,9 @@ void CubeSpace::sort_tetrahedra(const Progress& progress) {
     }
     cube_of[t] = cube;
     ++level.cubes[cube].tetrahedron;
+  }
+  if (level.cubes.empty() && cuts.count() > 0) {
+    return sort_tetrahedra({}, progress);
   }
   std::vector<std::uint32_t> order(level.cubes.size()), rank(level.cubes.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -181,11 +187,13 @@ void CubeSpace::sort_tetrahedra(const Progress& progress) {
   }
   cubes.push_back({.tetrahedron = first});
   level.cubes = std::move(cubes);
-  sorted_tetrahedra_.resize(count);
+  sorted_tetrahedra_.resize(first);
   std::vector<std::uint32_t> next(order.size());
   std::ranges::transform(std::span(level.cubes).first(order.size()), next.begin(), &Cube::tetrahedron);
   for (std::uint32_t t = 0; t < count; ++t) {
-    sorted_tetrahedra_[next[rank[cube_of[t]]]++] = t;
+    if (cube_of[t] != none) {
+      sorted_tetrahedra_[next[rank[cube_of[t]]]++] = t;
+    }
   }
 }
 
@@ -277,8 +285,8 @@ void CubeSpace::find_volumes(const std::vector<std::uint32_t>& part_of, const Pr
 void CubeSpace::sort_elements() {
   Level& level = levels_[1];
   std::vector<std::uint16_t> around(mesh_->element_count(), 0);
-  for (const Tetrahedron& t : tetrahedra()) {
-    std::ranges::for_each(t, [&](ElementId e) { ++around[e]; });
+  for (const std::uint32_t t : sorted_tetrahedra_) {
+    std::ranges::for_each(tetrahedra()[t], [&](ElementId e) { ++around[e]; });
   }
   const auto is_skin = [&](ElementId e) {
     return !own_tetrahedra_.empty() || 2 * mesh_->neighbours_of(e).size() != around[e] + std::size_t{4};

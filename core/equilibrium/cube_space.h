@@ -73,8 +73,9 @@ class CubeSpace {
     return {0, std::uint8_t(1 << p[0]), std::uint8_t(7 ^ 1 << p[2]), 7};
   }
 
-  /// Counts all cells, cut or not. Takes memory in proportion to them, however far apart they are. Throws Cancelled.
-  explicit CubeSpace(MeshPointer mesh, const Progress& progress = {});
+  /// Leaves out the cells at cut links, unless no others are left. Takes memory in proportion to the cells, however far
+  /// apart they are. Throws Cancelled.
+  explicit CubeSpace(MeshPointer mesh, const Cuts& cuts = {}, const Progress& progress = {});
 
   const Mesh& mesh() const { return *mesh_; }
   double unit() const { return unit_; }
@@ -97,7 +98,7 @@ class CubeSpace {
   std::span<const Tetrahedron> tetrahedra() const;
   /// True if a link along the cell of a tetrahedron is cut.
   bool is_gone(std::uint32_t tetrahedron, const Cuts& cuts) const;
-  /// All tetrahedra, by their cube of level 1.
+  /// The tetrahedra that are not left out, by their cube of level 1.
   const std::vector<std::uint32_t>& sorted_tetrahedra() const { return sorted_tetrahedra_; }
   /// All elements with cells, and those on the surface, by the cube of level 1 that they belong to.
   const std::vector<ElementId>& sorted_elements() const { return sorted_elements_; }
@@ -144,7 +145,7 @@ class CubeSpace {
 
   void find_tetrahedra();
   void find_unit(const Progress& progress);
-  void sort_tetrahedra(const Progress& progress);
+  void sort_tetrahedra(const Cuts& cuts, const Progress& progress);
   std::vector<std::uint32_t> find_parts(const Progress& progress);
   std::vector<Pair> find_pairs(const std::vector<std::uint32_t>& part_of);
   void find_volumes(const std::vector<std::uint32_t>& part_of, const Progress& progress);

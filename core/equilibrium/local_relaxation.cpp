@@ -18,6 +18,8 @@ constexpr std::size_t worth_cells = 20'000;
 constexpr double largest_extent = 1e100;
 // Valid regions from these numbers on hardly bind.
 constexpr double open_stretch = 3, open_shear = 2;
+// So many cuts that the cubes do not know are followed: the cells about them stay fine. More cost more than new cubes.
+constexpr std::size_t most_followed = 500;
 // The error of a twin of half the resolution is four times as large, so the difference is three times the error.
 constexpr double per_error = 3;
 
@@ -40,13 +42,23 @@ bool LocalRelaxation::is_for(const Body& body) {
 LocalRelaxation::LocalRelaxation(const Body& body, const Options& options, const Progress& progress)
     : options_(options),
       mesh_(body.stored_mesh()),
-      space_(mesh_, progress),
+      space_(mesh_, body.cuts(), progress),
       fixed_(space_),
       minimum_(space_, fixed_, resolution_of(options, space_.extent(), 1)),
+      known_cuts_(body.cuts().links()),
       is_gone_(space_.tetrahedra().size(), 0) {
   if (options.has_twin) {
     twin_.emplace(space_, fixed_, resolution_of(options, space_.extent(), 2));
   }
+}
+
+bool LocalRelaxation::fits(const Body& body) const {
+  if (!is_of(body)) {
+    return false;
+  }
+  const std::vector<LinkId> now = body.cuts().links();
+  const bool moves = has_begun_ && !starts_anew_;
+  return std::ranges::includes(now, known_cuts_) && (moves || now.size() - known_cuts_.size() <= most_followed);
 }
 
 void LocalRelaxation::follow(const Body& body, std::span<const ElementId> held) {

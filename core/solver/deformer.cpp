@@ -256,7 +256,7 @@ void Deformer::prepare(ElementId element) {
 }
 
 bool Deformer::prepare_relaxation() {
-  if (!is_local_ || !LocalRelaxation::is_for(body_)) {
+  if (!is_local_ || is_incomplete_ || !LocalRelaxation::is_for(body_)) {
     return false;
   }
   const RunningPass running;
@@ -414,9 +414,9 @@ bool Deformer::may_follow(std::span<const ElementId> held) const {
   return is_local_ && has_changed_ && !held.empty() && LocalRelaxation::is_for(body_);
 }
 
-/// Builds what relaxation that is fine only where needed has for the object, unless it is built.
+/// Builds what relaxation that is fine only where needed has for the object and its cuts, unless it is built.
 bool Deformer::build_local() {
-  if (local_ && local_->is_of(body_)) {
+  if (local_ && local_->fits(body_)) {
     return false;
   }
   local_ = std::make_shared<LocalRelaxation>(body_, LocalRelaxation::Options{.has_twin = true}, progress_);
@@ -426,6 +426,9 @@ bool Deformer::build_local() {
 /// Runs iterations that are fine only where needed.
 RelaxationResult Deformer::follow(std::span<const ElementId> held) {
   try_equilibrate([&] {
+    if (local_ && !local_->fits(body_)) {
+      complete_relaxation();
+    }
     const bool is_new = build_local();
     const LocalRelaxation::Result result = local_->update(body_, held);
     // The steps are not known: the object has not settled.

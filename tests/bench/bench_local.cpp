@@ -1,7 +1,7 @@
 // Measures relaxation that is fine only where needed (equilibrium/local_relaxation.h), relaxation of all elements and
 // quasi-Newton FEM against the equilibrium of all elements: bench_local [KIND [SCALE [fast]]] drags a patch of a block,
-// or a whole side, for 60 frames, with a cut in between; fast only the first, without the comparison. KIND is patch,
-// side, jitter, poisson, or a file with tetrahedra.
+// or a whole side, for 60 frames, with a cut in between, or with a large one before; fast only the first, without the
+// comparison. KIND is patch, side, wound, jitter, poisson, or a file with tetrahedra.
 
 #include <algorithm>
 #include <array>
@@ -57,14 +57,16 @@ struct Scene {
   MeshPointer mesh;
   std::vector<ElementId> pins, held;
   std::vector<LinkId> wound;  // cut in the middle of the drag
+  bool is_wounded = false;    // the links are cut before the drag
   double far = 0;             // how far the handle goes (mesh units)
   double poisson = 0.3;
 };
 
 /// Pins the elements within `deep` of the left end, and holds those within `radius` of the highest element at `along`
 /// of the length; or, without a radius, the right end. The wound is beside the handle: a plane, from the surface down.
-Scene scene_of(std::string name, MeshPointer mesh, double deep, double radius, double along = 0.75) {
-  Scene scene{std::move(name), mesh, {}, {}, {}};
+Scene scene_of(std::string name, MeshPointer mesh, double deep, double radius, double along = 0.75,
+               bool is_wounded = false) {
+  Scene scene{std::move(name), mesh, {}, {}, {}, is_wounded};
   const auto [low, high] = mesh->box;
   const double length = high[0] - low[0], size = mesh->mean_link_length;
   const Point aim(low[0] + along * length, (low[1] + high[1]) / 2, high[2]);
@@ -88,7 +90,8 @@ Scene scene_of(std::string name, MeshPointer mesh, double deep, double radius, d
     }
   }
   scene.far = (radius > 0 ? 0.1 : 0.3) * length;
-  const double plane = centre[0] + radius + 1.7 * size, wide = 2 * size, down = 4 * size;
+  const double plane = centre[0] + radius + 1.7 * size;
+  const double wide = is_wounded ? 0.15 * length : 2 * size, down = is_wounded ? 0.3 * length : 4 * size;
   for (LinkId link = 0; radius > 0 && link < mesh->link_count(); ++link) {
     const Point a = mesh->rest_position(mesh->links[link][0]), b = mesh->rest_position(mesh->links[link][1]);
     const Point at = (a + b) / 2;
@@ -108,6 +111,9 @@ class Dragged {
     elastic.material.poisson = scene.poisson;
     body_.set_elastic(elastic);
     body_.pin(scene.pins);
+    if (scene.is_wounded) {
+      body_.cut(scene.wound);
+    }
   }
 
   Body& body() { return body_; }
@@ -380,7 +386,8 @@ void run(const Scene& scene, int every) {
 void run_block(const std::string& kind, const std::string& scale, const std::array<std::uint32_t, 3>& cubes,
                int every) {
   const bool is_jittered = kind == "jitter";
-  Scene scene = scene_of(scale + ", " + kind, block(cubes, is_jittered ? 0.2 : 0), 0.01, kind == "side" ? 0 : 3.1);
+  Scene scene = scene_of(scale + ", " + kind, block(cubes, is_jittered ? 0.2 : 0), 0.01, kind == "side" ? 0 : 3.1, 0.75,
+                         kind == "wound");
   scene.poisson = kind == "poisson" ? 0.45 : scene.poisson;
   run(scene, every);
 }
@@ -412,7 +419,7 @@ int main(int count, char** arguments) {
     if (kind.find('.') != std::string::npos) {
       run_file(kind, elements, compares ? every : 0);
     }
-    for (const char* block : {"patch", "side", "jitter", "poisson"}) {
+    for (const char* block : {"patch", "side", "wound", "jitter", "poisson"}) {
       if (kind == "all" || kind == block) {
         run_block(block, name, cubes, compares ? every : 0);
       }

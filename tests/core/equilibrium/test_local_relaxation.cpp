@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "body/body_view.h"
 #include "equilibrium/equilibrium_solver.h"
@@ -31,6 +32,9 @@ class LocalRelaxationTest : public QObject {
   void the_error_is_small_data();
   void the_error_is_small();
   void a_cut_opens();
+  void cubes_know_the_cuts_of_before();
+  void many_cuts_between_two_drags_need_new_cubes();
+  void an_object_without_whole_cells_stays_at_rest();
   void two_branches_in_one_cube_are_apart();
   void no_cell_is_inverted();
   void two_runs_have_the_same_bits();
@@ -143,6 +147,18 @@ double difference(const std::vector<double>& is, const std::vector<double>& shou
     all += std::pow(should[i], 2);
   }
   return std::sqrt(apart / all);
+}
+
+/// The links across a plane beside the handle of the block.
+std::vector<LinkId> wound_of(const Mesh& mesh) {
+  std::vector<LinkId> wound;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    const Point a = mesh.rest_position(mesh.links[link][0]), b = mesh.rest_position(mesh.links[link][1]);
+    if ((a[0] < 27.5) != (b[0] < 27.5) && std::abs(a[1] - 12) < 7.5 && a[2] > 13.5) {
+      wound.push_back(link);
+    }
+  }
+  return wound;
 }
 
 std::vector<double> equilibrium(const Scene& scene, double part, std::span<const LinkId> cuts = {}) {
@@ -328,14 +344,7 @@ void LocalRelaxationTest::the_error_is_small() {
 
 void LocalRelaxationTest::a_cut_opens() {
   const Scene scene = block_scene();
-  std::vector<LinkId> wound;
-  for (LinkId link = 0; link < scene.mesh->link_count(); ++link) {
-    const Point a = scene.mesh->rest_position(scene.mesh->links[link][0]);
-    const Point b = scene.mesh->rest_position(scene.mesh->links[link][1]);
-    if ((a[0] < 27.5) != (b[0] < 27.5) && std::abs(a[1] - 12) < 7.5 && a[2] > 13.5) {
-      wound.push_back(link);
-    }
-  }
+  const std::vector<LinkId> wound = wound_of(*scene.mesh);
   Body body = scene.body();
   LocalRelaxation relaxation(body, {});
   for (int i = 1; i <= 10; ++i) {
@@ -354,6 +363,69 @@ void LocalRelaxationTest::a_cut_opens() {
   relaxation.update(body, scene.held);
   relaxation.finish(body);
   QVERIFY(difference(displacements(body), equilibrium(scene, 1)) < 0.06);
+}
+
+/// Then both sides have coarse cubes of their own, and nothing need stay fine.
+void LocalRelaxationTest::cubes_know_the_cuts_of_before() {
+  const Scene scene = block_scene();
+  const std::vector<LinkId> wound = wound_of(*scene.mesh);
+  const auto should = equilibrium(scene, 1, wound);
+  std::array<std::size_t, 2> nodes{};
+  for (const bool before : {false, true}) {
+    Body body = scene.body();
+    if (before) {
+      body.cut(wound);
+    }
+    LocalRelaxation relaxation(body, {});
+    body.cut(wound);
+    for (int i = 1; i <= 10; ++i) {
+      scene.move(body, i / 10.0);
+      nodes[before ? 1 : 0] = relaxation.update(body, scene.held).nodes;
+    }
+    relaxation.finish(body);
+    const double error = difference(displacements(body), should);
+    QVERIFY2(error < 0.06, qPrintable(QString::number(error)));
+  }
+  QVERIFY2(nodes[1] < 0.8 * double(nodes[0]), (std::to_string(nodes[0]) + ' ' + std::to_string(nodes[1])).c_str());
+}
+
+/// Those of a moving handle and a few others are followed; restored links need new cubes.
+void LocalRelaxationTest::many_cuts_between_two_drags_need_new_cubes() {
+  const Scene scene = block_scene();
+  const std::vector<LinkId> wound = wound_of(*scene.mesh), few(wound.begin(), wound.begin() + 100);
+  QVERIFY(wound.size() > 600);
+  Body body = scene.body();
+  LocalRelaxation relaxation(body, {});
+  body.cut(few);
+  QVERIFY(relaxation.fits(body));
+  body.cut(wound);
+  QVERIFY(!relaxation.fits(body));
+  scene.move(body, 0.1);
+  relaxation.update(body, scene.held);
+  QVERIFY(relaxation.fits(body));
+  relaxation.release();
+  QVERIFY(!relaxation.fits(body));
+  const LocalRelaxation again(body, {});
+  QVERIFY(again.fits(body));
+  body.uncut(few);
+  QVERIFY(!again.fits(body));
+}
+
+void LocalRelaxationTest::an_object_without_whole_cells_stays_at_rest() {
+  const Scene scene = block_scene();
+  Body body = scene.body();
+  std::vector<LinkId> all(scene.mesh->link_count());
+  std::iota(all.begin(), all.end(), LinkId{0});
+  body.cut(all);
+  LocalRelaxation relaxation(body, {});
+  scene.move(body, 1);
+  relaxation.update(body, scene.held);
+  relaxation.finish(body);
+  const auto at = displacements(body);
+  for (ElementId e = 0; e < scene.mesh->element_count(); ++e) {
+    const double away = Point::Map(at.data() + std::size_t{e} * 3).norm();
+    QVERIFY(std::ranges::binary_search(scene.held, e) ? std::abs(away - std::hypot(0.2 * 3, 3)) < 1e-12 : away < 1e-12);
+  }
 }
 
 void LocalRelaxationTest::two_branches_in_one_cube_are_apart() {
