@@ -144,7 +144,6 @@ class WindowLessons : public QObject {
   void eachLessonRunsToItsEndAndBack_data();
   void eachLessonRunsToItsEndAndBack();
   void theBarShowsTheStep();
-  void docksThatWereOpenStayOpen();
   void nextPlaysVisiblyAndASecondNextEndsIt();
   void theViewsStayStillWhileAStepPlaysAndAsTheUserChoseThem();
   void theHandleIsMarkedAfterItsDrag();
@@ -164,6 +163,7 @@ class WindowLessons : public QObject {
   void aCutByTheUserStaysOutOfTheLesson();
   void aDamagedLessonChangesNothingAndUnknownNamesAreReported();
   void closingHidesTheBar();
+  void docksThatWereOpenStayOpen();
 
  private:
   /// Returns a window that tests share, with another object and without a lesson. It saves the time to open windows.
@@ -246,7 +246,7 @@ void WindowLessons::theBarShowsTheStep() {
 
 /// A lesson hides the dock that it has opened, and no other.
 void WindowLessons::docksThatWereOpenStayOpen() {
-  Workbench& bench = shared();
+  Workbench bench;
   auto* dock = bench.find<QDockWidget>("propagationDock");
   for (const bool wasOpen : {true, false}) {
     dock->setVisible(wasOpen);
