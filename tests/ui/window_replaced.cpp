@@ -1,5 +1,7 @@
 // Tests what happens to unsaved work when another object replaces it: it is kept, on every path.
 
+#include <unistd.h>
+
 #include <QDir>
 #include <QDropEvent>
 #include <QMenu>
@@ -249,9 +251,11 @@ class WindowReplaced : public QObject {
     QVERIFY(QDir(unsaved_work::folder()).removeRecursively());
     QProcess display, program;
     if (signal == 0) {
+      // A number that neither another test nor with_display has, for its reason.
       display.start(QStringLiteral("Xvfb"),
-                    {QStringLiteral("-displayfd"), QStringLiteral("1"), QStringLiteral("-screen"), QStringLiteral("0"),
-                     QStringLiteral("1600x900x24"), QStringLiteral("-nolisten"), QStringLiteral("tcp")});
+                    {QStringLiteral(":%1").arg(50'100 + ::getpid() % 9'000), QStringLiteral("-displayfd"),
+                     QStringLiteral("1"), QStringLiteral("-screen"), QStringLiteral("0"), QStringLiteral("1600x900x24"),
+                     QStringLiteral("-nolisten"), QStringLiteral("tcp")});
       QTRY_VERIFY(display.canReadLine());
       auto environment = QProcessEnvironment::systemEnvironment();
       environment.insert(QStringLiteral("DISPLAY"),
