@@ -18,10 +18,13 @@ constexpr std::size_t worth_cells = 20'000;
 constexpr double largest_extent = 1e100;
 // Valid regions from these numbers on hardly bind.
 constexpr double open_stretch = 3, open_shear = 2;
-// So many cuts that the cubes do not know are followed: the cells about them stay fine. More cost more than new cubes.
-constexpr std::size_t most_followed = 500;
+// So few cuts are followed: the cells about them stay fine. To know more saves more than new cubes cost.
+constexpr LinkId most_followed = 500;
 // The error of a twin of half the resolution is four times as large, so the difference is three times the error.
 constexpr double per_error = 3;
+
+/// Returns the cuts that cubes must know. When these are built leaves no trace, so they depend on nothing else.
+Cuts to_know(const Body& body) { return body.cuts().count() > most_followed ? body.cuts() : Cuts(); }
 
 LocalResolution resolution_of(const LocalRelaxation::Options& options, double extent, double factor) {
   return {options.theta * factor, std::max(2.0, options.widest * extent) * factor, options.tolerance * factor};
@@ -42,10 +45,10 @@ bool LocalRelaxation::is_for(const Body& body) {
 LocalRelaxation::LocalRelaxation(const Body& body, const Options& options, const Progress& progress)
     : options_(options),
       mesh_(body.stored_mesh()),
-      space_(mesh_, body.cuts(), progress),
+      space_(mesh_, to_know(body), progress),
       fixed_(space_),
       minimum_(space_, fixed_, resolution_of(options, space_.extent(), 1)),
-      known_cuts_(body.cuts().links()),
+      known_cuts_(to_know(body).links()),
       is_gone_(space_.tetrahedra().size(), 0) {
   if (options.has_twin) {
     twin_.emplace(space_, fixed_, resolution_of(options, space_.extent(), 2));
@@ -56,9 +59,8 @@ bool LocalRelaxation::fits(const Body& body) const {
   if (!is_of(body)) {
     return false;
   }
-  const std::vector<LinkId> now = body.cuts().links();
   const bool moves = has_begun_ && !starts_anew_;
-  return std::ranges::includes(now, known_cuts_) && (moves || now.size() - known_cuts_.size() <= most_followed);
+  return moves ? std::ranges::includes(body.cuts().links(), known_cuts_) : to_know(body).links() == known_cuts_;
 }
 
 void LocalRelaxation::follow(const Body& body, std::span<const ElementId> held) {

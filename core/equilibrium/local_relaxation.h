@@ -37,11 +37,11 @@ class LocalRelaxation {
   static bool is_for(const Body& body);
   /// Returns true if this was built for a body's object.
   bool is_of(const Body& body) const { return mesh_ == body.stored_mesh(); }
-  /// Returns true if it is worth to go on with this: it is of the body's object, and knows its cuts or follows them.
-  /// While the handle moves it follows all that are made.
+  /// Returns true if this is what would be built for a body now, or if the handle moves, and was so when it began.
   bool fits(const Body& body) const;
 
-  /// Builds the cubes, which know the cuts: takes about as long as ten iterations to the equilibrium. Throws Cancelled.
+  /// Builds the cubes, which know the cuts if they are many: takes about as long as ten iterations to the equilibrium.
+  /// Throws Cancelled.
   LocalRelaxation(const Body& body, const Options& options, const Progress& progress = {});
 
   /// Follows the handle, which is where the body has it, and writes the elements that are fine or on the surface.
@@ -74,7 +74,7 @@ class LocalRelaxation {
   LocalMinimum minimum_;
   std::optional<LocalMinimum> twin_;
   Revisions seen_;
-  std::vector<LinkId> known_cuts_;  // of the cubes, ascending
+  std::vector<LinkId> known_cuts_;  // by the cubes, ascending
   std::vector<LinkId> cut_links_;
   std::vector<std::uint8_t> is_gone_;  // of each tetrahedron
   std::vector<LocalMinimum::Box> boxes_;
