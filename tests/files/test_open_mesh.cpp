@@ -200,6 +200,12 @@ void OpenMeshTest::what_we_write_comes_back() {
 /// Points of a grid are not invented where its kind says that the file lists them.
 void OpenMeshTest::a_grid_without_its_points_is_refused() {
   const std::string head = "# vtk DataFile Version 3.0\na\nASCII\nDATASET ";
+  for (const char* spacing : {"SPACING", "ASPECT_RATIO"}) {  // the latter in files of older programs
+    put_file(path("spaced.vtk"),
+             "# vtk DataFile Version 2.0\na\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 1\nORIGIN 0 0 0\n" +
+                 std::string(spacing) + " 3 4 5\n");
+    QCOMPARE(open_mesh(path("spaced.vtk")).mesh->box[1], Point(3, 4, 0));
+  }
   put_file(path("bent.vtk"), head + "STRUCTURED_GRID\nDIMENSIONS 2 2 1\n");
   put_file(path("boxes.vtk"), head +
                                   "RECTILINEAR_GRID\nDIMENSIONS 2 2 1\nX_COORDINATES 2 double\n0 1\n"

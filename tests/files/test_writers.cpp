@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "files/formats/mesh_pieces.h"
+#include "files/mesh/mesh_formats.h"
 #include "files/support.h"
 #include "files/text/outputs.h"
 #include "measure/violation.h"
@@ -91,6 +92,7 @@ class WritersTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void what_a_format_loses_is_said_of_all_cells();
   void ply_holds_faces_and_edges();
   void ply_without_edges_names_none();
   void vtu_holds_every_piece();
@@ -110,6 +112,23 @@ class WritersTest : public QObject {
   MeshPointer mesh_ = one_of_each();
   Softness softness_;
 };
+
+void WritersTest::what_a_format_loses_is_said_of_all_cells() {
+  for (const MeshKind kind : {MeshKind::tetra, MeshKind::cloth}) {
+    const MeshPointer mesh = made(kind, {3, 3, kind == MeshKind::cloth ? 1U : 3U});
+    QCOMPARE(lost_in(mesh_format("a.obj", FormatUse::write), *mesh).empty(), !mesh->has_cells());
+  }
+  MeshParts parts;
+  for (int i = 0; i < 8; ++i) {
+    parts.rest.emplace_back(double((i ^ i >> 1) & 1), double(i >> 1 & 1), double(i >> 2));
+  }
+  parts.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  add_links_along_edges(parts);
+  const MeshPointer hexahedron = build_mesh(std::move(parts));
+  for (const char* file : {"a.obj", "a.ply"}) {
+    QVERIFY(lost_in(mesh_format(file, FormatUse::write), *hexahedron).ends_with("links inside as lines"));
+  }
+}
 
 void WritersTest::ply_holds_faces_and_edges() {
   const std::string text = written("a.ply", {*mesh_, {}, rest_positions(*mesh_), softness_});

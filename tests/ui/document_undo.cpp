@@ -88,6 +88,7 @@ void DocumentUndoTest::every_step_is_undone_and_redone_exactly() {
       [&] {
         edits::setPinned(document, {8, 9}, true);
       },
+      [&] { edits::setPinned(document, {9}, false); },
       [&] {
         edits::setSoftness(document, {0.9, 1.05, 0}, QStringLiteral("stretch"));
       },

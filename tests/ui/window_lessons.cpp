@@ -22,6 +22,7 @@
 #include "window/bars.h"
 #include "window/lesson_bar.h"
 #include "window/lessons.h"
+#include "window/show_menu.h"
 
 namespace chainmail::window_lessons {
 
@@ -163,6 +164,7 @@ class WindowLessons : public QObject {
   void aCutByTheUserStaysOutOfTheLesson();
   void aDamagedLessonChangesNothingAndUnknownNamesAreReported();
   void closingHidesTheBar();
+  void theUserChoosesWhatIsShown();
   void docksThatWereOpenStayOpen();
 
  private:
@@ -242,6 +244,16 @@ void WindowLessons::theBarShowsTheStep() {
   }
   QVERIFY(!bench.find<QPushButton>("lessonNextButton")->isVisible());
   QCOMPARE(bench.window.colouring().mode(), ColourMode::violation);
+}
+
+/// What a lesson shows holds until the user chooses.
+void WindowLessons::theUserChoosesWhatIsShown() {
+  Workbench bench(cloth());
+  ShowMenu& menu = bench.window.showMenu();
+  menu.show(QStringLiteral("surface"));
+  QCOMPARE(menu.chosen(), QStringLiteral("surface"));
+  bench.trigger("showLinks");
+  QCOMPARE(menu.chosen(), QStringLiteral("links"));
 }
 
 /// A lesson hides the dock that it has opened, and no other.

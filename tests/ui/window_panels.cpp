@@ -34,6 +34,17 @@ class WindowPanels : public QObject {
     QVERIFY(bench.window.panel(0).mapToGlobal(QPoint()).x() < bench.window.panel(1).mapToGlobal(QPoint()).x());
   }
 
+  void theReferenceOfARemovedPanelIsTheFirst() {
+    Workbench bench;
+    bench.trigger("addPanel");
+    bench.settle();
+    bench.window.colouring().setReference(2);
+    bench.trigger("removePanel");
+    bench.settle();
+    QCOMPARE(bench.document().panels(), 2);
+    QCOMPARE(bench.window.colouring().reference(), 0);
+  }
+
   void panelsAreAddedAsTheObjectStands() {
     Workbench bench;
     Document& document = bench.document();

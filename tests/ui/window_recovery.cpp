@@ -363,6 +363,9 @@ class WindowRecovery : public QObject {
     bench.settle();
     bench.timer->start(0);
     QTRY_VERIFY(autosaved().isEmpty() && objects().empty());
+    edits::setPinned(bench.document(), {5}, true);
+    bench.save();
+    QCOMPARE(objects().size(), std::size_t{1});  // it is needed again
   }
 
   void anObjectWithoutWorkIsRemoved() {

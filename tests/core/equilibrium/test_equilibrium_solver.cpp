@@ -34,6 +34,7 @@ class EquilibriumSolverTest : public QObject {
   void pins_that_go_are_free_at_once();
   void cut_links_have_no_energy();
   void what_is_kept_matches_the_object();
+  void what_is_kept_of_the_material_matches_the_object();
   void a_long_cut_costs_no_iterations();
   void all_levels_follow_a_cut_and_its_undoing();
   void an_update_of_some_rows_equals_one_of_all();
@@ -313,6 +314,34 @@ void EquilibriumSolverTest::cut_links_have_no_energy() {
 }
 
 /// Changes of every kind between iterations: the kept solver ends where a new one does.
+void EquilibriumSolverTest::what_is_kept_of_the_material_matches_the_object() {
+  const auto mesh = make_mesh(MeshKind::tetra, {9, 5, 5});
+  Dragged dragged(mesh, softness_of(EnergyKind::material, 1, {0, 1000, 1000}), left_side(*mesh),
+                  mesh->element_count() - 1, Point(0, 0, 1));
+  Body& body = dragged.solver.body();
+  std::vector<LinkId> wound;
+  for (LinkId link = 0; link < mesh->link_count(); ++link) {
+    const Point a = mesh->rest_position(mesh->links[link][0]), b = mesh->rest_position(mesh->links[link][1]);
+    if ((a[0] < 4.5) != (b[0] < 4.5) && a[2] > 1.5 && b[2] > 1.5) {
+      wound.push_back(link);
+    }
+  }
+  ElasticOptions soft, gent;
+  soft.material.poisson = 0.1;
+  gent.law.kind = StrainLaw::Kind::gent;
+  const std::vector<std::function<void()>> changes{[&] { body.cut(wound); }, [&] { body.set_elastic(soft); },
+                                                   [&] { body.set_elastic(gent); }, [&] { body.uncut(wound); },
+                                                   [&] { body.set_elastic({}); }};
+  for (const auto& change : changes) {
+    change();
+    dragged.solve(1e-5, 500);
+    const std::vector<double> kept = displacements_of(dragged.solver);
+    EquilibriumSolver::make(3)->solve(body, dragged.held, 1e-5, 500);
+    const double apart = largest_difference(kept, displacements_of(dragged.solver));
+    QVERIFY2(apart < 1e-3, qPrintable(QString::number(apart)));
+  }
+}
+
 void EquilibriumSolverTest::what_is_kept_matches_the_object() {
   for (const MeshPointer& mesh : {make_mesh(MeshKind::cloth, {14, 14, 1}), make_mesh(MeshKind::tetra, {6, 6, 6})}) {
     Dragged dragged(mesh, softness_of(EnergyKind::axial, 0.1, wide), left_side(*mesh), mesh->element_count() - 1,

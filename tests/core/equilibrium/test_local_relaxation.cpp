@@ -34,6 +34,7 @@ class LocalRelaxationTest : public QObject {
   void a_cut_opens();
   void cubes_know_the_cuts_of_before();
   void many_cuts_between_two_drags_need_new_cubes();
+  void it_is_for_open_regions_of_all_links();
   void an_object_without_whole_cells_stays_at_rest();
   void two_branches_in_one_cube_are_apart();
   void no_cell_is_inverted();
@@ -412,6 +413,16 @@ void LocalRelaxationTest::many_cuts_between_two_drags_need_new_cubes() {
   body.uncut(wound);
   body.cut(few);
   QVERIFY(relaxation.fits(body) && !again.fits(body));
+}
+
+void LocalRelaxationTest::it_is_for_open_regions_of_all_links() {
+  const Scene scene = block_scene();
+  Body body = scene.body();
+  QVERIFY(LocalRelaxation::is_for(body));
+  Softness softness = body.softness();
+  softness.links.set(7, {0.9, 1.1, 0.1});
+  body.set_softness(softness);
+  QVERIFY(!LocalRelaxation::is_for(body));
 }
 
 void LocalRelaxationTest::an_object_without_whole_cells_stays_at_rest() {
