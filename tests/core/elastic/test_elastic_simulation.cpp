@@ -22,6 +22,7 @@ class ElasticSimulationTest : public QObject {
   void an_updated_factor_changes_no_bit();
   void a_shape_is_kept_when_exact_takes_over();
   void without_pins_nothing_moves();
+  void a_part_that_a_cut_sets_free_is_told();
   void a_change_of_algorithm_or_material_answers_at_once();
   void relaxation_leaves_a_static_answer_alone();
   void a_remark_comes_and_goes();
@@ -163,6 +164,29 @@ void ElasticSimulationTest::without_pins_nothing_moves() {
     bar.apply(commands::Pin{layer(bar.mesh(), *find_side("left"))});
     bar.apply(commands::Drag{Point(5, 1, 0)});  // once it is pinned, there is an answer
     QCOMPARE(bar.at(tip), Point(5, 1, 0));
+  }
+}
+
+/// The factors of before the cut do not hide it.
+void ElasticSimulationTest::a_part_that_a_cut_sets_free_is_told() {
+  Bar bar(Algorithm::linear_fem);
+  bar.drag(tip, Point(5, 1, 0));
+  const Mesh& mesh = bar.mesh();
+  const double middle = (mesh.box[0][0] + mesh.box[1][0]) / 2 + 0.25;  // between two layers
+  std::vector<LinkId> across;
+  for (LinkId link = 0; link < mesh.link_count(); ++link) {
+    const auto [a, b] = mesh.links[link];
+    if ((mesh.rest_position(a)[0] < middle) != (mesh.rest_position(b)[0] < middle)) {
+      across.push_back(link);
+    }
+  }
+  bar.apply(commands::Cut{across});
+  bar.apply(commands::Grab{tip});
+  try {
+    bar.apply(commands::Drag{Point(5, 2, 0)});
+    QFAIL("the part with the handle has no solution");
+  } catch (const Error& error) {
+    QVERIFY2(QString::fromStdString(error.what()).contains("hold"), error.what());
   }
 }
 
