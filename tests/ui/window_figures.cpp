@@ -199,18 +199,23 @@ class WindowFigures : public QObject {
     DragBench bench;
     bench.drag({-30, -10, 0});
     const QTemporaryDir folder;
-    const auto legendsIn = [&](const Drawing& drawing) {
+    const auto textOf = [&](const Drawing& drawing) {
       const QString path = folder.filePath(QStringLiteral("figure.svg"));
       writeDrawing(path, drawing);
       QFile file(path);
-      return file.open(QIODevice::ReadOnly) ? file.readAll().count("Violation, live") : -1;
+      return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
     };
+    const auto legendsIn = [&](const Drawing& drawing) { return textOf(drawing).count("Violation, live"); };
     QCOMPARE(legendsIn(drawingOf(bench.window.area(), false)), qsizetype{1});
     QCOMPARE(legendsIn(drawingOf(bench.window.panel(0), false)), qsizetype{1});
     bench.trigger("linkColours");
     bench.settleFigures();
     QCOMPARE(legendsIn(drawingOf(bench.window.area(), false)), qsizetype{2});  // two scales
     bench.trigger("linkColours");
+    bench.trigger("colourBy-length");  // of which 1 is neutral
+    bench.settleFigures();
+    const QByteArray lengths = textOf(drawingOf(bench.window.area(), false));
+    QVERIFY(lengths.contains("1 ± ") && !lengths.contains("within ±"));
   }
 
   void aChosenSizeOfPicturesIsRememberedWithinItsLimits() {

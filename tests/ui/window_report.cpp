@@ -206,6 +206,7 @@ class WindowReport : public QObject {
 
   void savingAReport() {
     ReportBench bench;
+    edits::setRelaxation(bench.document(), {false, 0.5});
     bench.run();
     QTemporaryDir folder;
     bench.results().saveTo(folder.path());
@@ -217,6 +218,7 @@ class WindowReport : public QObject {
     const QJsonObject json = QJsonDocument::fromJson(read(folder, "report.json")).object();
     const QJsonArray drags = json[QStringLiteral("objects")][0][QStringLiteral("drags")].toArray();
     QVERIFY2(drags.size() == 3, read(folder, "report.json").left(600));
+    QCOMPARE(json[QStringLiteral("options")][QStringLiteral("relax_step")].toDouble(), 0.5);
     const QList<QByteArray> rows = read(folder, "report.csv").trimmed().split('\n');
     QCOMPARE(rows.size(), 1 + 3 * 12);
     static const QRegularExpression quoted(QStringLiteral("\"[^\"]*\""));  // labels contain commas
