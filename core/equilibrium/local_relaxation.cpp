@@ -23,8 +23,8 @@ constexpr LinkId most_followed = 500;
 // The error of a twin of half the resolution is four times as large, so the difference is three times the error.
 constexpr double per_error = 3;
 
-/// Returns the cuts that cubes must know. When these are built leaves no trace, so they depend on nothing else.
-Cuts to_know(const Body& body) { return body.cuts().count() > most_followed ? body.cuts() : Cuts(); }
+/// True if cubes must know all cuts; otherwise they know none. It does not matter when they are built.
+bool must_know(const Cuts& cuts) { return cuts.count() > most_followed; }
 
 LocalResolution resolution_of(const LocalRelaxation::Options& options, double extent, double factor) {
   return {options.theta * factor, std::max(2.0, options.widest * extent) * factor, options.tolerance * factor};
@@ -45,10 +45,10 @@ bool LocalRelaxation::is_for(const Body& body) {
 LocalRelaxation::LocalRelaxation(const Body& body, const Options& options, const Progress& progress)
     : options_(options),
       mesh_(body.stored_mesh()),
-      space_(mesh_, to_know(body), progress),
+      space_(mesh_, must_know(body.cuts()) ? body.cuts() : Cuts(), progress),
       fixed_(space_),
       minimum_(space_, fixed_, resolution_of(options, space_.extent(), 1)),
-      known_cuts_(to_know(body).links()),
+      known_cuts_(must_know(body.cuts()) ? body.cuts().links() : std::vector<LinkId>()),
       is_gone_(space_.tetrahedra().size(), 0) {
   if (options.has_twin) {
     twin_.emplace(space_, fixed_, resolution_of(options, space_.extent(), 2));
@@ -59,8 +59,11 @@ bool LocalRelaxation::fits(const Body& body) const {
   if (!is_of(body)) {
     return false;
   }
-  const bool moves = has_begun_ && !starts_anew_;
-  return moves ? std::ranges::includes(body.cuts().links(), known_cuts_) : to_know(body).links() == known_cuts_;
+  const std::vector<LinkId> now = body.cuts().links();
+  if (has_begun_ && !starts_anew_) {  // the handle moves
+    return std::ranges::includes(now, known_cuts_);
+  }
+  return must_know(body.cuts()) ? now == known_cuts_ : known_cuts_.empty();
 }
 
 void LocalRelaxation::follow(const Body& body, std::span<const ElementId> held) {

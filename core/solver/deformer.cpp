@@ -419,6 +419,7 @@ bool Deformer::build_local() {
   if (local_ && local_->fits(body_)) {
     return false;
   }
+  complete_relaxation();
   local_ = std::make_shared<LocalRelaxation>(body_, LocalRelaxation::Options{.has_twin = true}, progress_);
   return true;
 }
@@ -426,9 +427,6 @@ bool Deformer::build_local() {
 /// Runs iterations that are fine only where needed.
 RelaxationResult Deformer::follow(std::span<const ElementId> held) {
   try_equilibrate([&] {
-    if (local_ && !local_->fits(body_)) {
-      complete_relaxation();
-    }
     const bool is_new = build_local();
     const LocalRelaxation::Result result = local_->update(body_, held);
     // The steps are not known: the object has not settled.
