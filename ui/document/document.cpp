@@ -23,6 +23,7 @@ Document::Document(MeshPointer mesh, const QString& name)
       handle_(*this, executor_),
       moves_(*this, executor_) {
   contents_.softness = std::make_shared<const Softness>(standard_softness());
+  contents_.relaxation.local = true;
   contents_.object = std::make_shared<DocumentObject>(ObjectState{std::move(mesh)}, name);
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   connect(&solvers_, &PanelSolvers::refused, this,
@@ -32,6 +33,7 @@ Document::Document(MeshPointer mesh, const QString& name)
     addSolver(algorithm(panel));
   }
   executor_.post(commands::SetSoftness{contents_.softness});
+  executor_.post(contents_.relaxation);
   undoStack_.setUndoLimit(undoSteps);
   connect(&undoStack_, &QUndoStack::indexChanged, &moves_, &MovePlayer::lastDragChanged);
 }
