@@ -32,6 +32,7 @@ class ReportTest : public QObject {
   void the_main_table_takes_the_worst();
   void a_refusal_is_one_drag_s();
   void who_cannot_take_part_has_one_row();
+  void a_growing_object_says_why_it_is_not_larger();
   void the_closest_has_a_star();
   void csv_has_a_row_for_each();
   void csv_has_all_digits_in_every_locale();
@@ -304,6 +305,33 @@ void ReportTest::who_cannot_take_part_has_one_row() {
   QCOMPARE(grown.rows.size(), std::size_t{3});
   QCOMPARE(cell(grown, grown.rows[0].refusal.empty() ? 0 : 1, "why not larger", ""),
            QString("this is the largest object"));
+}
+
+void ReportTest::a_growing_object_says_why_it_is_not_larger() {
+  Results results = results_of(ReportKind::physics, {"pull"});
+  results.objects.resize(2, results.objects[0]);
+  for (ObjectInfo& object : results.objects) {
+    object.series = "bars";
+  }
+  const auto add = [&](const Contestant& contestant, std::size_t object, const std::string& refusal) {
+    add_row(results, 0, contestant, {}, refusal).object = object;
+    if (refusal.empty()) {
+      results.rows.back().set(relative, 0.5);
+      results.rows.back().set(later_ms, ms(2));
+    }
+  };
+  add({Algorithm::exact}, 0, "");
+  add({Algorithm::exact}, 1, "");
+  add({Algorithm::linear_fem}, 0, "");
+  add({Algorithm::linear_fem}, 1, "it needs 9 GB");
+  add({Algorithm::natural_queue}, 0, "");
+  const FigureTable grown = growth_table(results, "bars");
+  for (std::size_t row = 0; row < 3; ++row) {
+    const std::string expected = grown.rows[row].label == label({Algorithm::exact}) ? "this is the largest object"
+                                 : grown.rows[row].label == label({Algorithm::linear_fem}) ? "it needs 9 GB"
+                                                                                           : "its time is used up";
+    QCOMPARE(cell(grown, row, "why not larger", ""), QString::fromStdString(expected));
+  }
 }
 
 void ReportTest::the_closest_has_a_star() {
