@@ -14,6 +14,8 @@ namespace {
 constexpr float least_share = 0.02F;
 // Each of a cube's tetrahedra counts at least this share of its mean, so that no node is without energy.
 constexpr float least_filled = 0.02F;
+// Of the Laplacian around elements that are kept over cuts: 16 MB.
+constexpr std::size_t most_weights = std::size_t{1} << 22;
 // The coarsest level has a few nodes.
 constexpr int rounds_of_coarsest = 6;
 
@@ -89,9 +91,12 @@ void LocalLevels::Level::clear() {
   clear_all(node, hangs, up, share, next, weight, more, diagonal, keep, around, beside_leaf);
 }
 
-void LocalLevels::forget_rows() {
-  rows_.clear();
-  std::ranges::fill(row_of_, none);
+void LocalLevels::forget_rows(std::span<const ElementId> elements) {
+  std::ranges::for_each(elements, [this](ElementId e) { row_of_[e] = none; });
+  if (rows_.size() > most_weights) {  // many of them are not used any more
+    rows_.clear();
+    std::ranges::fill(row_of_, none);
+  }
 }
 
 void LocalLevels::list(const std::vector<std::uint8_t>& is_gone, double modulus) {

@@ -73,8 +73,8 @@ class LocalLevels {
 
   /// Lists what is in use after cubes were divided or joined. `is_gone`: of each tetrahedron.
   void list(const std::vector<std::uint8_t>& is_gone, double modulus);
-  /// Forgets the Laplacian around elements, after cuts.
-  void forget_rows();
+  /// Forgets the Laplacian around these elements, after cuts.
+  void forget_rows(std::span<const ElementId> elements);
   /// The tetrahedra of fine elements, and those of leaves, as a batch each.
   const std::vector<Batch>& batches() const { return batches_; }
   std::size_t tetrahedron_count() const { return tetrahedron_count_; }

@@ -48,10 +48,11 @@ void LocalMinimum::set_lame(const Lame& lame) {
   is_outdated_ = true;
 }
 
-void LocalMinimum::set_gone(const std::vector<std::uint8_t>* is_gone, const std::vector<Box>* boxes) {
+void LocalMinimum::set_gone(const std::vector<std::uint8_t>* is_gone, const std::vector<Box>* boxes,
+                            std::span<const ElementId> changed) {
   is_gone_ = is_gone;
   boxes_ = boxes;
-  levels_.forget_rows();
+  levels_.forget_rows(changed);
   pairs_.clear();
   is_outdated_ = true;
 }

@@ -25,9 +25,11 @@ class LocalMinimum {
       : levels_(space, fixed), fixed_(fixed), resolution_(resolution) {}
 
   void set_lame(const Lame& lame);
-  /// `is_gone`: of each tetrahedron. `places`: the boxes of the cells that are gone, as two corners each.
+  /// `is_gone`: of each tetrahedron. `boxes`: of the cells that are gone, as two corners each. `changed`: the corners
+  /// of tetrahedra for which it is not what it was.
   using Box = std::array<Point, 2>;
-  void set_gone(const std::vector<std::uint8_t>* is_gone, const std::vector<Box>* boxes);
+  void set_gone(const std::vector<std::uint8_t>* is_gone, const std::vector<Box>* boxes,
+                std::span<const ElementId> changed);
   /// Call this after other elements were fixed.
   void follow_fixed();
 

@@ -80,8 +80,8 @@ void LocalRelaxation::follow(const Body& body, std::span<const ElementId> held) 
     each([&](LocalMinimum& one) { one.set_lame(lame); });
   }
   if (is_new || now.cuts != seen_.cuts) {
-    follow_cuts(body);
-    each([&](LocalMinimum& one) { one.set_gone(&is_gone_, &boxes_); });
+    const std::vector<ElementId> changed = follow_cuts(body);
+    each([&](LocalMinimum& one) { one.set_gone(&is_gone_, &boxes_, changed); });
   }
   starts_anew_ = starts_anew_ || is_new || now.positions != seen_.positions;
   const bool is_another = is_new || now.pins != seen_.pins || !std::ranges::equal(held, fixed_.held());
@@ -115,9 +115,9 @@ void LocalRelaxation::read_fixed(const Body& body, std::span<const ElementId> el
   size_ = std::sqrt(square);
 }
 
-/// Finds the tetrahedra at links that are cut or were restored: their centres are near the links. Costs as much as
-/// there are cuts.
-void LocalRelaxation::follow_cuts(const Body& body) {
+/// Finds the tetrahedra at links that are cut or were restored: their centres are near the links. Returns the corners
+/// of those that changed. Costs as much as there are cuts.
+std::vector<ElementId> LocalRelaxation::follow_cuts(const Body& body) {
   std::vector<LinkId> now = body.cuts().links(), links;
   std::ranges::set_union(cut_links_, now, std::back_inserter(links));
   cut_links_ = std::move(now);
@@ -138,11 +138,15 @@ void LocalRelaxation::follow_cuts(const Body& body) {
   cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
   std::erase(cubes, CubeSpace::none);
   boxes_.clear();
+  std::vector<ElementId> changed;
   for (const std::uint32_t c : cubes) {
     bool any = false;
     for (std::uint32_t i = level.cubes[c].tetrahedron; i < level.cubes[c + 1].tetrahedron; ++i) {
       const std::uint32_t t = space_.sorted_tetrahedra()[i];
-      is_gone_[t] = space_.is_gone(t, body.cuts()) ? 1 : 0;
+      if (const std::uint8_t was = std::exchange(is_gone_[t], space_.is_gone(t, body.cuts()) ? 1 : 0);
+          was != is_gone_[t]) {
+        std::ranges::copy(space_.tetrahedra()[t], std::back_inserter(changed));
+      }
       any = any || is_gone_[t] != 0;
     }
     if (any) {
@@ -151,6 +155,7 @@ void LocalRelaxation::follow_cuts(const Body& body) {
       boxes_.push_back({low, low + Point::Constant(2)});
     }
   }
+  return changed;
 }
 
 LocalRelaxation::Result LocalRelaxation::update(Body& body, std::span<const ElementId> held) {

@@ -55,7 +55,7 @@ class LocalRelaxation {
 
  private:
   void follow(const Body& body, std::span<const ElementId> held);
-  void follow_cuts(const Body& body);
+  std::vector<ElementId> follow_cuts(const Body& body);
   void write_to(Body& body, bool everything);
   template <class View>
   void write(const View& view, bool everything);
