@@ -22,6 +22,7 @@ class OutputsCommandTest : public QObject {
   void positions_read_back_bit_for_bit();
   void deformed_obj_holds_links_and_cuts();
   void a_dash_is_standard_output();
+  void a_report_holds_the_command_as_typed();
   void one_failing_output_leaves_all();
   void what_was_read_is_not_replaced();
   void an_output_is_refused_before_any_work_data();
@@ -118,6 +119,21 @@ void OutputsCommandTest::a_dash_is_standard_output() {
   const auto twice = program_->run("deform cloth.obj --algorithm spiral --json - --trace -");
   QCOMPARE(twice.code, 2);
   QVERIFY2(is_one_sentence(twice), twice.error);
+  const auto found = program_->run("calibrate cloth.obj --pins left --evaluations 1 --drags 1 --json - -o soft.json");
+  QCOMPARE(found.code, 0);
+  QVERIFY2(QJsonDocument::fromJson(found.out).isObject(), found.out);
+}
+
+/// The command in a report can be pasted into a shell.
+void OutputsCommandTest::a_report_holds_the_command_as_typed() {
+  QVERIFY(QFile::copy(program_->path("cloth.obj"), program_->path("the doctor's.obj")));
+  QCOMPARE(program_
+               ->run({"compare", "the doctor's.obj", "--algorithms", "generalized", "--relax", "0", "--repetitions",
+                      "1", "-o", "out"})
+               .code,
+           0);
+  const QString typed = program_->json("out/report.json")["origin"].toObject()["command_line"].toString();
+  QVERIFY2(typed.startsWith(R"(chainmail compare 'the doctor'\''s.obj' --algorithms generalized)"), qPrintable(typed));
 }
 
 void OutputsCommandTest::one_failing_output_leaves_all() {

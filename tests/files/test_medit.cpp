@@ -37,6 +37,7 @@ void MeditTest::lines_do_not_matter_data() {
   QTest::newRow("a number on the next line") << QByteArray("MeshVersionFormatted\n2\nDimension\n3\n");
   QTest::newRow("comments and blank lines")
       << QByteArray("# by hand\n\n# again\nMeshVersionFormatted 2\n Dimension 3 # of 3\n");
+  QTest::newRow("version 4") << QByteArray("MeshVersionFormatted 4 Dimension 3 ");
   QTest::newRow("a byte order mark") << QByteArray("\xef\xbb\xbfMeshVersionFormatted 2\r\nDimension 3\r\n");
   QTest::newRow("carriage returns") << QByteArray("MeshVersionFormatted 2\r\rDimension\r3\r");
 }

@@ -370,6 +370,7 @@ void MovesTest::other_commands_are_refused_data() {
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, null, 2]})", "1: 'null' is not a number; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, "2", 2]})", "1: '\"2\"' is not a number; ");
   row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, 1e101, 2]})", "1: '1e+101' is too large");
+  row(R"({"do": "grab", "element": 1}, {"do": "drag", "target": [1, -1e101, 2]})", "1: '-1e+101' is too large");
   row(R"({"do": "grab", "elements": []})", "0: the handle has no elements; ");
   row(R"({"do": "grab", "elements": [1, 6]})", "0: 'elements' names element 6, which does not exist; ");
   row(R"({"do": "grab", "elements": [1, 2, 1]})", "0: element 1 is grabbed twice; ");

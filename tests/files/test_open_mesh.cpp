@@ -262,6 +262,8 @@ void OpenMeshTest::flaws_are_told() {
                    "or cell is "
                    "flat, 1 element shares its position with another"));
   QCOMPARE(in_words(open_mesh(source_file("tests/files/foreign/gmsh22.msh")).flaws), std::string());
+  put_file(path("sides.off"), "OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n2 1 2\n");
+  QCOMPARE(open_mesh(path("sides.off")).flaws.collapsed, std::uint64_t{2});  // faces of two corners
 }
 
 /// A square, the same starting at another corner, one with other points, and one that uses a point twice.

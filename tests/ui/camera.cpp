@@ -110,6 +110,30 @@ class CameraTest : public QObject {
     }
   }
 
+  void anAxisIsSeenFromItsSide_data() {
+    QTest::addColumn<bool>("isUpZ");
+    QTest::newRow("y is up") << false;
+    QTest::newRow("z is up") << true;
+  }
+  /// Where the camera looks from an axis, what is on this side is nearer.
+  void anAxisIsSeenFromItsSide() {
+    QFETCH(bool, isUpZ);
+    const std::array axes{0, 1, 2};
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const bool positive : {false, true}) {
+        Camera camera;
+        camera.setUp(isUpZ ? Camera::Up::z : Camera::Up::y);
+        camera.fit({Point::Constant(-1), Point::Constant(1)}, axes, QSizeF(640, 480));
+        camera.lookFromAxis(axis, positive);
+        QVector3D place;
+        place[axis] = positive ? 1 : -1;
+        const QVector3D near = camera.toView().map(place), far = camera.toView().map(-place);
+        QVERIFY2(near.z() > far.z() + 1.9F, qPrintable(QStringLiteral("%1 %2").arg(axis).arg(positive)));
+        QVERIFY(std::abs(near.x() - far.x()) < 1e-3 && std::abs(near.y() - far.y()) < 1e-3);
+      }
+    }
+  }
+
   void thePointUnderAPlaceAppearsThere_data() {
     QTest::addColumn<bool>("spatial");
     QTest::newRow("plane") << false;

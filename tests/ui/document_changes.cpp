@@ -57,6 +57,7 @@ class DocumentChangesTest : public QObject {
   void each_refused_grab_is_said();
   void a_change_ends_the_drag_in_the_solvers();
   void a_change_after_a_session_saved_while_dragging_can_be_saved();
+  void a_drag_names_the_elements_that_move();
   void a_split_in_a_lesson_keeps_the_settings_before_it();
   void undo_makes_the_mesh_of_a_split_again();
   void a_panel_may_be_removed_while_saving();
@@ -126,6 +127,19 @@ void DocumentChangesTest::a_change_after_a_session_saved_while_dragging_can_be_s
   QCOMPARE(session_of(document)->pins, std::vector<ElementId>{7});
 }
 
+/// Pinned elements stay behind, so they do not count.
+void DocumentChangesTest::a_drag_names_the_elements_that_move() {
+  Document document(mesh_, QStringLiteral("sheet"));
+  edits::setPinned(document, {7, 8}, true);
+  for (const auto& [held, text] : {std::pair(std::vector<ElementId>{6, 7, 8, 11}, "drag of 2 elements"),
+                                   {std::vector<ElementId>{7, 11}, "drag of element 11"}}) {
+    document.handle().grab(held);
+    document.handle().dragBy(Point(0.5, 1, 0));
+    document.handle().release();
+    QCOMPARE(document.undoStack().undoText(), QLatin1String(text));
+  }
+}
+
 void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
   Document document(mesh_, QStringLiteral("sheet"));
   document.handle().grab(7);
@@ -138,11 +152,18 @@ void DocumentChangesTest::a_split_in_a_lesson_keeps_the_settings_before_it() {
   lesson.lesson = {"lesson", {step}};
   const LinkSoftness own{0.5, 1.5, 0.3};
   edits::setSoftness(document, own, QStringLiteral("softness"));
+  const commands::SetRelaxation relaxation{.step = 0.25, .scheme = RelaxationScheme::link};
+  edits::setRelaxation(document, relaxation);
+  ElasticOptions elastic;
+  elastic.material.poisson = 0.1;
+  edits::setElastic(document, elastic, QStringLiteral("elastic"));
   edits::restore(document, std::make_shared<const Session>(lesson), {}, QStringLiteral("open"));
-  QVERIFY(document.softness() == LinkSoftness());
+  QVERIFY(document.softness() == LinkSoftness() && document.relaxation() != relaxation);
+  QVERIFY(document.elastic() != elastic);
   edits::split(document, split_of(document.mesh()));
   edits::replaceMesh(document, mesh_, QStringLiteral("sheet"), QStringLiteral("open"));
   QVERIFY(document.softness() == own);
+  QVERIFY(document.relaxation() == relaxation && document.elastic() == elastic);
 }
 
 /// Undo steps and solvers keep what splits changed, not their meshes.

@@ -56,6 +56,22 @@ class WindowCut : public QObject {
     }
   }
 
+  /// The links that would be cut light up in all panels, also where marks are not linked.
+  void theLinksToBeCutLightUpInAllPanels() {
+    Workbench bench;
+    bench.trigger("toolCut");
+    bench.find<QAction>("linkMarks")->setChecked(false);
+    const auto places = strokeBetweenColumns(bench);
+    bench.stroke(0, places, false);
+    for (int p = 0; p < 2; ++p) {
+      const QPointF beside = 0.3 * bench.view(p).viewPosition(30) + 0.7 * bench.view(p).viewPosition(31);
+      QVERIFY2(bench.distanceFromColour(p, beside, colours::lit) < 20,
+               qPrintable(QString::number(bench.distanceFromColour(p, beside, colours::lit))));
+    }
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, places.last());
+    bench.settle();
+  }
+
   void cutsAreUndoneAndRedone() {
     Workbench bench;
     bench.trigger("toolCut");

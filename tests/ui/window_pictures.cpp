@@ -5,7 +5,6 @@
 #include <QDoubleSpinBox>
 #include <QFile>
 #include <QPainter>
-#include <QSpinBox>
 #include <QSvgRenderer>
 #include <QTemporaryDir>
 
@@ -98,6 +97,24 @@ class WindowPictures : public QObject {
     // Depth is blended with the ground, or shows the ground below: both are the same, up to rounding.
     QVERIFY2(difference(laidOver, plain(opaque)) < 0.002,
              qPrintable(QString::number(difference(laidOver, plain(opaque)))));
+  }
+
+  void aTransparentDrawingHasNoGround() {
+    Workbench bench;
+    const QString path = folder_.filePath(QStringLiteral("drawing.svg"));
+    for (const char* subject : {"pictureOfObjectA", "pictureOfPanelA"}) {
+      bench.trigger(subject);
+      for (const bool transparent : {false, true}) {
+        bench.find<QAction>("pictureTransparent")->setChecked(transparent);
+        pictures(bench).savePath(path);
+        bench.settle();
+        QImage below(60, 40, QImage::Format_RGB32);
+        below.fill(Qt::magenta);
+        QPainter painter(&below);
+        QSvgRenderer(path).render(&painter, below.rect());
+        QVERIFY2((below.pixelColor(1, 20) == QColor(Qt::magenta)) == transparent, subject);
+      }
+    }
   }
 
   void whatIsChosenIsSavedAndCopied() {

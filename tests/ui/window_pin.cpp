@@ -52,6 +52,20 @@ class WindowPin : public QObject {
     QVERIFY(bench.position(1, pinned) != rest);  // without the pin, the element moves
   }
 
+  /// With a tool of clicks, the second press of a double click is another click and does not move the view.
+  void twoQuickClicksPinAndUnpin() {
+    Workbench bench;
+    bench.trigger("toolPin");
+    const QPoint place = bench.place(0, dragged);
+    QTest::mouseClick(&bench.view(0), Qt::LeftButton, {}, place);
+    QCOMPARE(bench.document().pins(), std::vector<ElementId>{dragged});
+    QTest::mouseDClick(&bench.view(0), Qt::LeftButton, {}, place);
+    QTest::mouseRelease(&bench.view(0), Qt::LeftButton, {}, place);
+    bench.settle();
+    QVERIFY(bench.document().pins().empty());
+    QCOMPARE(bench.place(0, dragged), place);
+  }
+
   void aPinnedElementIsNotGrabbed() {
     Workbench bench;
     edits::setPinned(bench.document(), {pinned}, true);

@@ -39,6 +39,21 @@ class WindowReportRun : public QObject {
     qInfo("until the thread ended, %s", qPrintable(timer.inWords()));
   }
 
+  /// A run that is cancelled before it has results shows nothing, and not those of the run before.
+  void whatARunBeforeFoundIsNotShownAgain() {
+    ReportBench bench;
+    bench.choose("reportSweeps", 0);
+    bench.run();
+    QTRY_VERIFY(!bench.thread().atWork());
+    const QSignalSpy arrived(&bench.thread(), &ReportThread::arrived);
+    emit bench.find<QPushButton>("reportRun")->clicked();
+    QVERIFY(bench.thread().running());
+    bench.thread().cancel();
+    QTRY_VERIFY(!bench.thread().atWork());
+    bench.settle();
+    QCOMPARE(arrived.count(), 0);
+  }
+
   void aRunRightAfterACancelledOneCounts() {
     ReportBench bench(generate({MeshKind::grid, {64, 64, 1}, 1, {}}));
     bench.runForLong();
@@ -103,7 +118,11 @@ class WindowReportRun : public QObject {
     edits::cut(bench.document(), {0, 5, 9});
     edits::setPinned(bench.document(), {0, 62}, true);
     edits::setSoftnessOf(bench.document(), {20}, LinkSoftness{0.5, 2, 0.3});
+    ElasticOptions elastic;
+    elastic.law.kind = StrainLaw::Kind::gent;
+    edits::setElastic(bench.document(), elastic, QStringLiteral("law"));
     const auto order = bench.window.findChild<ReportChoices*>()->order();
+    QVERIFY(order.object.elastic == elastic && order.object.law == elastic.law);
     QCOMPARE(order.object.cuts, (std::vector<LinkId>{0, 5, 9}));
     QCOMPARE(order.object.pins, (std::vector<ElementId>{0, 62}));
     QVERIFY(order.object.softness == *bench.document().wholeSoftness());

@@ -18,6 +18,7 @@ class ConvergingReferenceTest : public QObject {
   void a_solid_says_why_it_ends();
   void every_level_is_computed_where_it_is_asked_for();
   void cut_cells_are_missing_on_all_levels();
+  void a_second_drag_is_as_on_its_own();
   void a_patch_is_the_same_on_every_mesh();
 };
 
@@ -120,6 +121,18 @@ void ConvergingReferenceTest::cut_cells_are_missing_on_all_levels() {
   const ConvergedReference cut = ConvergingReference(problem, {.max_levels = 2}).at(corner, way);
   QVERIFY(cut.levels[1].elements < whole.levels[1].elements);
   QVERIFY(cut.solution.displacements != whole.solution.displacements);
+}
+
+void ConvergingReferenceTest::a_second_drag_is_as_on_its_own() {
+  ConvergingReference reference(sheet_problem(5), {.max_levels = 2}), fresh(sheet_problem(5), {.max_levels = 2});
+  const ConvergedReference first = reference.at(bottom, way), second = reference.at(corner, way),
+                           own = fresh.at(corner, way);
+  QCOMPARE(second.levels.size(), std::size_t{2});
+  const std::vector<double>&is = second.solution.displacements, &should = own.solution.displacements;
+  std::vector<double> apart(is.size());
+  std::ranges::transform(is, should, apart.begin(), std::minus());
+  QVERIFY2(rms(apart) < 1e-6 * rms(should), qPrintable(QString::number(rms(apart) / rms(should))));
+  QVERIFY(first.solution.displacements != is);
 }
 
 void ConvergingReferenceTest::a_patch_is_the_same_on_every_mesh() {

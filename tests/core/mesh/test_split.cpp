@@ -416,6 +416,21 @@ void SplitTest::cuts_pins_and_softness_go_over() {
     QVERIFY(pin == 8 || after.rest_position(pin).x() == 0);
   }
 
+  // The tip of a stroke is inside a face: it is pinned where all three corners are.
+  const auto tip = split_of(mesh, {{-20, 12}, {8, 12}});
+  const auto inside = std::ranges::find_if(
+      tip->edit().elements, [](const auto& one) { return std::set(one.of.begin(), one.of.end()).size() == 3; });
+  QVERIFY(inside != tip->edit().elements.end());
+  const ElementId id = tip->old_count() + ElementId(inside - tip->edit().elements.begin());
+  for (std::size_t left_out = 0; left_out <= 3; ++left_out) {
+    std::vector<ElementId> corners(inside->of.begin(), inside->of.end());
+    if (left_out < 3) {
+      corners.erase(corners.begin() + std::ptrdiff_t(left_out));
+    }
+    std::ranges::sort(corners);
+    QCOMPARE(std::ranges::binary_search(pins_after(*tip, corners), id), left_out == 3);
+  }
+
   LinkSoftness soft{0.5, 2, 0.5};
   const auto softness =
       object_after(*split, {mesh, {}, {}, std::make_shared<const Softness>(Softness{{0.9, 1.2, 0.1}, {{side, soft}}})})

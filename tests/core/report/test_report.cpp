@@ -246,6 +246,7 @@ void ReportTest::plots_are_well_formed_files() {
   QCOMPARE(marks.size(), std::size_t{3});
   QVERIFY(marks[1].hollow && !marks[0].hollow && !marks[2].hollow);  // with sweeps
   QVERIFY(marks[1].x == 0.1 && marks[1].x_low == 0.05 && marks[1].x_high == 0.2 && marks[1].y == 0.5);
+  QVERIFY2(marks[1].title.find("(quartiles 50 µs and 0.2 ms)") != std::string::npos, marks[1].title.c_str());
   QVERIFY(marks[0].series == marks[1].series && marks[0].series != marks[2].series);
 }
 
@@ -325,6 +326,7 @@ void ReportTest::a_growing_object_says_why_it_is_not_larger() {
   add({Algorithm::linear_fem}, 0, "");
   add({Algorithm::linear_fem}, 1, "it needs 9 GB");
   add({Algorithm::natural_queue}, 0, "");
+  QVERIFY(summary_table(results).columns.empty());  // objects of a series have a table of their own
   const FigureTable grown = growth_table(results, "bars");
   for (std::size_t row = 0; row < 3; ++row) {
     const std::string expected = grown.rows[row].label == label({Algorithm::exact}) ? "this is the largest object"
