@@ -14,7 +14,7 @@ namespace {
 constexpr float least_share = 0.02F;
 // Each of a cube's tetrahedra counts at least this share of its mean, so that no node is without energy.
 constexpr float least_filled = 0.02F;
-// Of the Laplacian around elements that are kept over cuts: 16 MB.
+// If there are more weights of the Laplacian than these (16 MB), a cut forgets all of them.
 constexpr std::size_t most_weights = std::size_t{1} << 22;
 // The coarsest level has a few nodes.
 constexpr int rounds_of_coarsest = 6;
@@ -93,7 +93,7 @@ void LocalLevels::Level::clear() {
 
 void LocalLevels::forget_rows(std::span<const ElementId> elements) {
   std::ranges::for_each(elements, [this](ElementId e) { row_of_[e] = none; });
-  if (rows_.size() > most_weights) {  // many of them are not used any more
+  if (rows_.size() > most_weights) {  // those of forgotten rows are still among them
     rows_.clear();
     std::ranges::fill(row_of_, none);
   }

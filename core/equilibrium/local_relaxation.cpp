@@ -143,11 +143,11 @@ std::vector<ElementId> LocalRelaxation::follow_cuts(const Body& body) {
     bool any = false;
     for (std::uint32_t i = level.cubes[c].tetrahedron; i < level.cubes[c + 1].tetrahedron; ++i) {
       const std::uint32_t t = space_.sorted_tetrahedra()[i];
-      if (const std::uint8_t was = std::exchange(is_gone_[t], space_.is_gone(t, body.cuts()) ? 1 : 0);
-          was != is_gone_[t]) {
+      const std::uint8_t is = space_.is_gone(t, body.cuts()) ? 1 : 0;
+      if (std::exchange(is_gone_[t], is) != is) {
         std::ranges::copy(space_.tetrahedra()[t], std::back_inserter(changed));
       }
-      any = any || is_gone_[t] != 0;
+      any = any || is != 0;
     }
     if (any) {
       const auto& at = level.cubes[c].at;

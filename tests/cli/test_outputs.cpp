@@ -127,11 +127,9 @@ void OutputsCommandTest::a_dash_is_standard_output() {
 /// The command in a report can be pasted into a shell.
 void OutputsCommandTest::a_report_holds_the_command_as_typed() {
   QVERIFY(QFile::copy(program_->path("cloth.obj"), program_->path("the doctor's.obj")));
-  QCOMPARE(program_
-               ->run({"compare", "the doctor's.obj", "--algorithms", "generalized", "--relax", "0", "--repetitions",
-                      "1", "-o", "out"})
-               .code,
-           0);
+  const QString options = QStringLiteral("--algorithms generalized --relax 0 --repetitions 1 -o out");
+  const auto outcome = program_->run(QStringList{"compare", "the doctor's.obj"} + options.split(u' '));
+  QCOMPARE(outcome.code, 0);
   const QString typed = program_->json("out/report.json")["origin"].toObject()["command_line"].toString();
   QVERIFY2(typed.startsWith(R"(chainmail compare 'the doctor'\''s.obj' --algorithms generalized)"), qPrintable(typed));
 }

@@ -45,6 +45,7 @@ class WindowReportRun : public QObject {
     bench.choose("reportSweeps", 0);
     bench.run();
     QTRY_VERIFY(!bench.thread().atWork());
+    bench.effort(60);
     const QSignalSpy arrived(&bench.thread(), &ReportThread::arrived);
     emit bench.find<QPushButton>("reportRun")->clicked();
     QVERIFY(bench.thread().running());

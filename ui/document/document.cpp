@@ -23,7 +23,7 @@ Document::Document(MeshPointer mesh, const QString& name)
       handle_(*this, executor_),
       moves_(*this, executor_) {
   contents_.softness = std::make_shared<const Softness>(standard_softness());
-  contents_.relaxation.local = true;
+  contents_.relaxation.local = true;  // files that do not say so mean false
   contents_.object = std::make_shared<DocumentObject>(ObjectState{std::move(mesh)}, name);
   contents_.algorithms = {Algorithm::generalized, Algorithm::natural_queue};
   connect(&solvers_, &PanelSolvers::refused, this,

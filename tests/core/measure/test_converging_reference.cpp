@@ -1,4 +1,6 @@
 #include <QtTest>
+#include <algorithm>
+#include <functional>
 
 #include "core/elastic/elastic_problems.h"
 #include "measure/converging_reference.h"

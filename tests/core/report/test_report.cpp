@@ -328,6 +328,7 @@ void ReportTest::a_growing_object_says_why_it_is_not_larger() {
   add({Algorithm::natural_queue}, 0, "");
   QVERIFY(summary_table(results).columns.empty());  // objects of a series have a table of their own
   const FigureTable grown = growth_table(results, "bars");
+  QCOMPARE(grown.rows.size(), std::size_t{3});
   for (std::size_t row = 0; row < 3; ++row) {
     const std::string expected = grown.rows[row].label == label({Algorithm::exact}) ? "this is the largest object"
                                  : grown.rows[row].label == label({Algorithm::linear_fem}) ? "it needs 9 GB"
